@@ -106,8 +106,9 @@ class Errors(Brief):
 
     ``floor`` is what the white noise of sensor and reference leaves, ``drift`` what the random walk
     of the sensor would add to it, ``unsure`` what gravity there and coefficients that nobody
-    declared may add, as far as the other rows leave them open. ``data`` says what was held out
-    where that is not the same for all sensors.
+    declared may add, as far as the other rows leave them open, ``slow`` the most that the random
+    walk of any part and the reference's noise make of a mean over seconds. ``data`` says what was
+    held out where that is not the same for all sensors.
     """
 
     unit: str
@@ -117,6 +118,7 @@ class Errors(Brief):
     drift: ErrorSums | None = None
     data: str = ""
     unsure: ErrorSums | None = None
+    slow: ErrorSums | None = None
 
     @property
     def noise(self) -> float:
@@ -146,10 +148,21 @@ class Errors(Brief):
         unsure = 0.0 if self.unsure is None else np.nan_to_num(self.unsure.per_axis)
         return np.hypot(self.noise_per_axis, unsure)
 
+    @property
+    def expected_slow(self) -> np.ndarray:
+        """RMS (3,) of the integral over a window that all of this may leave at most; NaN where no
+        part's walk is known.
+        """
+        parts = [one for one in (self.floor, self.unsure) if one is not None]
+        if self.slow is None or self.floor is None:
+            return np.full(3, np.nan)
+        squares = sum(np.nan_to_num(one.angle_per_axis) ** 2 for one in parts)
+        return np.sqrt(self.slow.angle_per_axis**2 + squares)
+
     def __add__(self, other: Errors) -> Errors:
         sums = {
             n: _both(getattr(self, n), getattr(other, n))
-            for n in ("before", "after", "floor", "drift", "unsure")
+            for n in ("before", "after", "floor", "drift", "unsure", "slow")
         }
         return Errors(self.unit, **sums, data=self.data)
 

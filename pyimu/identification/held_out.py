@@ -81,7 +81,24 @@ def _errors(
     reference = reference_variance(inv.after, trial.name)
     least = floor(white, inv.after, trial).with_variance(reference)
     open_ = None if unsure is None else left_open(inv.after, trial, unsure)
-    return Errors(unit, *both, least, drift or ErrorSums(), unsure=open_)
+    slow = _slow(inv, trial, reference)
+    return Errors(unit, *both, least, drift or ErrorSums(), unsure=open_, slow=slow)
+
+
+def _slow(inv: Investigation, trial: Trial, reference: np.ndarray) -> ErrorSums | None:
+    """What the largest random walk that a sensor may have leaves, and in the integral over a window
+    what ``reference`` (3,), the variance that the reference adds to a row, makes of it if it is
+    white: of a derived rate it is less. None where no part's walk is known.
+    """
+    sensor = inv.after.sensor
+    largest = most(WALK[0], sensor.kind, WALK[1]) ** 2
+    if not np.isfinite(largest):
+        return None
+    _, declared = declared_variances(sensor, trial.h)
+    walk = {i: RandomWalk(0.0, max(float(declared[i]), largest)) for i in trial.axes}
+    made, step = floor(walk, inv.after, trial), trial.h * trial.band.stride
+    white = made.windows * reference * WINDOW * step
+    return replace(made, angle_squares=made.angle_squares + white)
 
 
 def _walk(inv: Investigation, noise: dict[int, RandomWalk]) -> dict[int, float]:

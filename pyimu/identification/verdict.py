@@ -9,6 +9,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from pyimu.identification.fates import NOT_LOOKED_FOR, Fate
+from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.found import Added, Changed, Errors
 from pyimu.identification.search.forward import AS_NOISE, AS_ROUNDING, Refused
 from pyimu.identification.search.judge import OF_REFERENCE
@@ -176,6 +177,8 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
         return Verdict(
             "undecidable", f"{reason}: give longer logs, or logs of their own to hold out"
         )
+    if wanders := wandering(e):
+        return Verdict("drift", wanders)
     if e.unexamined:
         seen = joined(sorted(e.examined))
         rest = f"nothing is missing of the {seen}, and more was not examined"
@@ -249,7 +252,7 @@ def _left(kind: str, e: Evidence, than_noise: bool = False) -> str:
     axes = _by_axis(whole)
     pieces = {(name, i): r for name, one in logs.items() for i, r in _by_axis(one).items()}
     most_of_log = max(pieces, key=lambda at: pieces[at], default=None)
-    limit = max(FAR, float(np.sqrt(chi2.isf(CHANCE / max(len(pieces), len(axes), 1), 1))))
+    limit = _limit(max(len(pieces), len(axes)))
     axis = max(axes, key=lambda i: axes[i], default=None)
     if _ratio(whole.after.total, whole.expected) > FAR:
         most = "" if axis is None else f", most on {'xyz'[axis]}"
@@ -260,6 +263,40 @@ def _left(kind: str, e: Evidence, than_noise: bool = False) -> str:
         name, i = most_of_log
         return _residual(kind, e) + f"{_times(logs[name], i)} on {'xyz'[i]} in {name}"
     return ""
+
+
+def wandering(e: Evidence) -> str:
+    """Of which sensor the residual, integrated over seconds, is far more than noise and the random
+    walk of any part make of it, and on which axis; nothing where there is none.
+
+    In its rows a slow error may be lost beside noise that a sum over them hardly shows.
+    """
+    for kind, whole in e.errors.items():
+        logs = [("", whole), *((n, by[kind]) for n, by in e.by_log.items() if kind in by)]
+        ratios = {(n, i): r for n, one in logs for i, r in _by_axis_slowly(one).items()}
+        at = max(ratios, key=lambda k: ratios[k], default=None)
+        if at is not None and ratios[at] > _limit(len(ratios)):
+            name, axis = at
+            of_log = f" in {name}" if name else ""
+            times = number(ratios[at], 2)
+            return (
+                f"over {WINDOW:g} s the {kind} residual is {times} times what noise and the random "
+                f"walk of any part make of it on {'xyz'[axis]}{of_log}, and no effect accounts for "
+                "it"
+            )
+    return ""
+
+
+def _by_axis_slowly(e: Errors) -> dict[int, float]:
+    """The ratio of what is left over a window to what may be at most, of axes that have both."""
+    pairs = enumerate(zip(e.after.angle_per_axis, e.expected_slow, strict=True))
+    ratios = {i: _ratio(*pair) for i, pair in pairs}
+    return {i: r for i, r in ratios.items() if np.isfinite(r)}
+
+
+def _limit(count: int) -> float:
+    """Ratio beyond which none of so many axes and logs is by chance."""
+    return max(FAR, float(np.sqrt(chi2.isf(CHANCE / max(count, 1), 1))))
 
 
 def _residual(kind: str, e: Evidence) -> str:

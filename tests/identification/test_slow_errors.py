@@ -12,6 +12,8 @@ from scipy.spatial.transform import Rotation
 from world import drive, recording
 
 import pyimu
+from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.noise_fit import less_levels
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 
 WARMTH = np.array([3e-4, -2e-4, 1e-4])
@@ -74,3 +76,59 @@ def test_prediction_errors_are_freed_of_the_walk_that_they_show():
     assert_allclose(found[seen], whole, atol=1e-9)
     slow = r / 0.3**2
     assert_allclose([made.slow.r, made.slow.k2, made.walk.k2], [slow, k2, k2 / slow])
+
+
+@pytest.mark.parametrize("seed", [11, 12])
+def test_a_step_is_no_noise_beside_an_attitude(world, seed):
+    """It was what the past predicts, and whitened away. Its instant to four periods of the band's
+    rows, of which each holds both levels for as long; its size to four standard errors.
+    """
+    step, at = np.array([np.radians(0.1), 0.0, 0.0]), world.time[0] + 101.0
+    stepped = (world.time > at)[:, None] * step
+    closed = pyimu.close(against_attitude(world, lambda x: x + stepped, seed=seed))
+    (added,) = closed.added
+    assert added.effect == "bias_step", closed.report()
+    (value, std, _), (instants, *_) = added.parameters["A"], added.parameters["t0"]
+    assert abs(value[0, 0] - step[0]) < 4 * std[0, 0] and not value[1:].any()
+    assert abs(instants[0] - 101.0) < 4 / closed.band_hz["gyro"]
+
+
+def test_a_step_that_no_part_has_is_not_called_clean_beside_an_attitude(world):
+    stepped = (world.time > world.time[0] + 101.0)[:, None] * np.radians([0.6, 0.0, 0.0])
+    closed = pyimu.close(against_attitude(world, lambda x: x + stepped, seed=13))
+    assert closed.verdict == "not_confirmed" and "bias_step" in closed.reason, closed.report()
+    assert "beyond belief" in closed.reason
+
+
+@pytest.mark.parametrize(
+    "degrees, seed", [pytest.param(0.1, 14, marks=pytest.mark.long), (0.6, 15)]
+)
+def test_a_step_in_a_gap_of_the_attitude_is_not_called_clean(world, degrees, seed):
+    """Of a reference that begins anew no row is at the edge, and levels are all that is seen: in
+    the rows of the larger step it is more than noise, of the smaller over seconds.
+    """
+    since = world.time - world.time[0]
+    stepped = (since > 101.0)[:, None] * np.radians([degrees, 0.0, 0.0])
+    log = against_attitude(world, lambda x: x + stepped, seed=seed)
+    gap = (since > 100.0) & (since < 102.5)
+    closed = pyimu.close(replace(log, ref_q=np.where(gap[:, None], np.nan, log.ref_q)))
+    assert closed.verdict in ("named", "not_confirmed", "unexplained", "drift"), closed.report()
+    assert all(a.effect == "bias_step" for a in closed.added)
+
+
+@pytest.mark.parametrize("size", [0.0, 0.1, 5.0])
+def test_an_autoregression_less_levels_predicts_no_step(size):
+    """Noise of known colour, in two segments of which one has a step: density at its slow end. An
+    autoregression of order p knows it with a variance of 4 p / n (Berk 1974), and a span of two
+    memories leaves 1 - 1 / 2 of what is slower than one.
+    """
+    rng, n, coefficients = np.random.default_rng(21), 4000, (0.3, -0.4)
+    noise = lfilter([1.0], [1.0, *(-c for c in coefficients)], rng.standard_normal(n))
+    time, segments = 0.1 * np.arange(n), [(0, 1500), (1500, n)]
+    left = noise + size * (time > 250.0)
+    one = Linear(time, segments, left[:, None], {0: []}, {})
+    whole = {0: Autoregressive.fit([(left, time, segments)])}
+    found = less_levels([one], whole)[0]
+    true = 1.0 / (1.0 - sum(coefficients)) ** 2
+    assert 0.5 * true / 2.0 < found.slow.r < 2.0 * true
+    assert size < 1.0 or whole[0].slow.r > 10.0 * true

@@ -4,6 +4,8 @@ beside.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -209,3 +211,39 @@ def test_what_the_fitted_rows_leave_open_on_one_axis_is_not_blamed_either(left, 
     assert found.word == word, found.reason
     assert ("the fitted rows leave open" in found.reason) == (word == "undecidable")
     assert ("give a log to fit that moves so" in found.reason) == (word == "undecidable")
+
+
+@pytest.mark.parametrize("unexamined", [{}, {"accel": "no reference of its force"}])
+@pytest.mark.parametrize("size, word", [(2.9, "clean"), (40.0, "drift")])
+def test_what_only_a_sum_over_seconds_shows_is_not_called_clean(size, word, unexamined):
+    """The rows lie within their noise, the integral over 10 s of one axis far above what noise and
+    the largest walk make of it: a bias that stepped where the reference has a gap.
+    """
+
+    def over_windows(angle):
+        return replace(sums(np.ones(3)), angle_squares=np.square(angle) * ROWS, windows=ROWS)
+
+    seen, floor = over_windows(np.array([0.5, size, 0.5])), over_windows(np.full(3, 0.01))
+    slow = over_windows(np.ones(3))
+    whole = Errors("rad/s", seen, seen, floor, ErrorSums(), slow=slow)
+    e = Evidence(("gyro",), unexamined, "", True, SHORT, errors={"gyro": whole})
+    found = verdict(e)
+    assert found.word == ("undecidable" if word == "clean" and unexamined else word)
+    assert ("40 times" in found.reason and "on y" in found.reason) == (word == "drift")
+    unknown = replace(whole, slow=None)
+    assert verdict(replace(e, errors={"gyro": unknown})).word != "drift"
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.lists(st.floats(0.1, 10.0), min_size=6, max_size=6))
+def test_slow_errors_of_several_logs_add_up_by_their_windows(sizes):
+    """The mean square of both is expected, each beside its own floor."""
+    made = [
+        Errors("rad/s", *3 * (one,), slow=replace(one, angle_squares=4.0 * one.angle_squares))
+        for one in (
+            replace(sums(np.ones(3)), angle_squares=np.square(s) * ROWS, windows=ROWS)
+            for s in (sizes[:3], sizes[3:])
+        )
+    ]
+    expected = np.sqrt(5.0 * (np.square(sizes[:3]) + np.square(sizes[3:])) / 2.0)
+    np.testing.assert_allclose((made[0] + made[1]).expected_slow, expected)

@@ -33,7 +33,7 @@ from pyimu.identification.fit.keys import (
     LogPlace,
     coefficients_of,
 )
-from pyimu.identification.fit.noise_fit import declared_variances, fit_noise
+from pyimu.identification.fit.noise_fit import declared_variances, fit_noise, less_levels
 from pyimu.identification.fit.normal import Noise, Normal, normal_equations, solve
 from pyimu.identification.fit.trial import Trial, marked
 from pyimu.identification.fit.whiten import WALKS, RandomWalk
@@ -189,17 +189,18 @@ class Fit:
         return self if held == self.noise else replace(self, noise=held)
 
     def wandering_less(self) -> Fit:
-        """The same model where the random walk that nobody declared is a tenth of what was fitted.
+        """The same model where the random walk that nobody declared is a tenth of what was fitted,
+        and an autoregression predicts nothing slow.
 
-        A slow effect that is missing is taken for a walk, of any size; to be seen at all it must
-        not be.
+        A slow effect that is missing is taken for a walk, of any size, or for what the past
+        predicts; to be seen at all it must not be.
         """
         _, walk = declared_variances(self.sensor, self.trials[0].h)
         less = {
             i: replace(n, k2=WANDERS_LESS**2 * n.k2)
             if isinstance(n, WALKS) and walk[i] == 0.0
             else n
-            for i, n in self.noise.items()
+            for i, n in less_levels(self.residuals(), self.noise).items()
         }
         return self if less == self.noise else replace(self, noise=less)
 

@@ -11,7 +11,7 @@ from pyimu.identification.fit.columns import Linear, in_band
 from pyimu.identification.fit.normal import Noise
 from pyimu.identification.fit.reduction import Unit
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk, Segments
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.kinds import KINDS
 from pyimu.model.sensor import Sensor
@@ -20,6 +20,10 @@ from pyimu.model.signals import COLUMNS
 LEAST_ROWS = 50
 """Rows for each column of motion that is taken out of a residual: with fewer, noise would go with
 it."""
+
+SPANS = 2
+"""Memories of an autoregression over which a level is taken out of a residual: over one, of the
+noise that it predicts hardly any would be left, and of a step the share of a single span stays."""
 
 MOTION = 0.01
 """Share of a residual's power beside the motion below which it is nothing but motion."""
@@ -58,6 +62,43 @@ def fit_noise(
                 [(one.residual[:, i], one.time, one.segments) for _, one in axis]
             )
     return made
+
+
+def less_levels(residuals: list[Linear], noise: Noise) -> Noise:
+    """A ``noise`` whose autoregressions predict nothing that is slow: each is that of its axis'
+    residual less the means over spans of a few memories.
+
+    A step is what its past predicts, but for one row: an autoregression that was fitted to it
+    whitens it away, and makes the noise of means so large that nothing slow counts beside it.
+    """
+    return {
+        i: _less_levels(residuals, i, n) if isinstance(n, Autoregressive) else n
+        for i, n in noise.items()
+    }
+
+
+def _less_levels(residuals: list[Linear], axis: int, noise: Autoregressive) -> Autoregressive:
+    order = len(noise.coefficients)
+    if not order:
+        return noise
+    parts = [
+        (_less_means(one.residual[:, axis], one.segments, SPANS * order), one.time, one.segments)
+        for one in residuals
+        if axis in one.keys
+    ]
+    found = Autoregressive.fit(parts, order)
+    if found.slow.r >= noise.slow.r:
+        return noise
+    return replace(found, beside_motion=noise.beside_motion, k2=noise.k2, before=noise.before)
+
+
+def _less_means(left: np.ndarray, segments: Segments, span: int) -> np.ndarray:
+    """A residual (m,) less its means over ``span`` rows, or up to twice as many, of a segment."""
+    out = np.array(left)
+    for a, b in segments:
+        for piece in np.array_split(out[a:b], max(1, (b - a) // span)):
+            piece -= piece.mean() if len(piece) else 0.0
+    return out
 
 
 def _autoregression(rows: list[tuple[Trial, Linear]], axis: int, whole: bool) -> Autoregressive:

@@ -18,6 +18,7 @@ from pyimu.identification.fit.maximum_likelihood import (
     fit_and_normal,
     wander_is_declared,
 )
+from pyimu.identification.fit.noise_fit import less_levels
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.scatter import (
@@ -305,9 +306,11 @@ def refine(current: Fit, c: Screened) -> Refined:
     corrected for the scatter of the scores at the fitted values.
     """
     sensor = with_start(current.sensor, c.values, c.effect, c.form)
-    fitted, normal = fit_and_normal(
-        replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise()
-    )
+    start = replace(current, sensor=sensor, free=current.free | keys_of(c)).with_noise()
+    if is_slow(sensor.effect(c.effect)):
+        # It is still part of what is left, and by a noise that predicts it would hardly come in.
+        start = replace(start, noise=less_levels(start.residuals(), start.noise))
+    fitted, normal = fit_and_normal(start)
     # The wander of rows is that beside all structure there may be: what is bent, it may be itself.
     bends = current.is_reduced and c.effect not in STRUCTURE
     if bends:
