@@ -197,7 +197,8 @@ def _aligned(trial: Trial, clock: Clock | None, own: float, own_std: float) -> T
     chance = max(SIGNIFICANT * std, ALIKE * own)
     # A lag that seems to change, and is nobody's own, is the clock's.
     is_clock = clock.changed and not own and abs(clock.mean) >= DOUBTFUL * clock.std
-    if rest.keeps_step and abs(rest.mean) < chance and not is_clock:
+    by_chance = rest.keeps_step and abs(rest.mean) < chance and not is_clock
+    if by_chance and not any(f.kind in OWN_LAG for f in trial.findings):
         return replace(trial, clock=rest)
     found = Finding(
         "reference_clock",
@@ -210,4 +211,5 @@ def _aligned(trial: Trial, clock: Clock | None, own: float, own_std: float) -> T
         },
     )
     moved = rebanded(shifted(trial, rest))
-    return replace(moved, clock=replace(rest, taken_out=True), findings=(*trial.findings, found))
+    said = trial.findings if by_chance else (*trial.findings, found)
+    return replace(moved, clock=replace(rest, taken_out=True), findings=said)
