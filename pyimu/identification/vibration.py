@@ -41,6 +41,8 @@ def lines(recording: Recording) -> Iterator[Finding]:
     A reference that was differentiated does not reach there, and for it a line is noise.
     """
     groups = [g for g in ("gyro", "accel") if getattr(recording, g) is not None]
+    if not groups:
+        return
     spectrum = SpectrumAccumulator(recording.sample_period, WINDOW)
     values = np.hstack([getattr(recording, g) for g in groups])
     for a, b in recording.segments:

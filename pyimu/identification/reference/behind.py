@@ -152,6 +152,8 @@ def _likeliest(
     is what the reference is behind. What is ``slight`` may be a sensor's ring.
     """
     judge = Judge(_busiest(trial), [make(size=s) for make, sizes in kinds for s in sizes])
+    if not judge.any_short:
+        return None
     found = [_finest(make, sizes, judge.left) for make, sizes in kinds]
     best = min(found, key=judge.left)
     # Where a low-pass filter says as much, the clock's delay is explained with it.
@@ -162,6 +164,8 @@ def _likeliest(
     # How far it goes, all rows say.
     sizes, make = _times(best.size, NEAR), partial(replace, best)
     judge = Judge(trial, [make(size=s) for s in sizes])
+    if not judge.any_short:
+        return None
     best = _finest(make, sizes, judge.left)
     explains = judge.left(None) - judge.left(best) > 2.0 * WANDERS
     return best if explains and judge.alike(best) < MOSTLY * judge.alike(None) else None
@@ -199,8 +203,13 @@ def _times(start: float, steps: range) -> list[float]:
 
 
 def _finest(make: Callable[..., Filter], sizes: list[float], left: Callable) -> Filter:
-    """The filter that leaves least of those that ``make`` makes of a ``size`` within ``sizes``."""
+    """The filter that leaves least of those that ``make`` makes of a ``size`` within ``sizes``, as
+    far as these can be judged.
+    """
+    sizes = [size for size in sizes if np.isfinite(left(make(size=size)))] or sizes[:1]
     tried = [make(size=size) for size in sizes]
+    if len(tried) == 1:
+        return tried[0]
     at = min(range(len(tried)), key=lambda i: left(tried[i]))
     near = sizes[max(at - 1, 0)], sizes[min(at + 1, len(sizes) - 1)]
     found = minimize_scalar(

@@ -41,6 +41,11 @@ class Judge:
         if reaches:
             self._settle([f for f in filters if self._reaches(f)])
 
+    @property
+    def any_short(self) -> bool:
+        """Whether any of the filters is short enough for the trial to be judged."""
+        return bool(self.noise)
+
     def left(self, one) -> float:
         """Power of what a filter leaves of the reference, in units of its noise; inf where the
         filter reaches too far.
