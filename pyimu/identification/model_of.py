@@ -13,6 +13,7 @@ from pyimu.identification.noise.named import Noise
 from pyimu.identification.rounding import Rounding, rounding
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.leftover import NoiseFigure, noise_figures
+from pyimu.identification.vibration import less_lines
 from pyimu.model.catalogue import POWER_ON, WALK, WHITE
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
@@ -62,7 +63,7 @@ def _finished(start: Part, fit: Fit) -> Sensor:
     else:
         # A differentiated reference hides the sensor's own noise; its quiet rows show the white
         # part only.
-        rest = np.mean([rest_density(t) for t in fit.trials], axis=0)
+        rest = np.mean([rest_density(less_lines(t)) for t in fit.trials], axis=0)
         white, walk = np.nan_to_num(rest), np.zeros(3)
     bias = np.mean([fit.states[t.name].bias for t in fit.trials], axis=0)
     sensor = fit.sensor

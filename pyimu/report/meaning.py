@@ -33,7 +33,7 @@ MEANING = {
     "layout": "how the table was taken apart",
     "leaning": "the body lies on its side, or its axes are not forward-left-up",
     "leans": "the vehicle leans into its turns; the course is taken for what it is along the gyro",
-    "line": "one frequency stands out, as the mains' does; a slow reference takes it for noise",
+    "line": "one frequency stands out, as the mains' does; a slow reference does not show it",
     "log_time": "the messages have no stamps: the times at which they were logged count",
     "mag_axes": "the field does not turn as the gyro says: axes in disorder, or of another sign?",
     "mag_axis_missing": "an axis of the magnetometer shows zeros alone: it was not used",

@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation, RotationSpline
 
+import pyimu
 from pyimu.identification.vibration import lines, vibrations
 from pyimu.recording.recording import Recording
 
@@ -44,3 +46,18 @@ def test_a_line_that_one_axis_has_is_told():
     assert (said.kind, said.column, said.count) == ("line", "gyro_y", 1)
     assert said.detail["frequency"] == pytest.approx(23.4, abs=0.01)
     assert said.detail["rms"] == pytest.approx(5.0 / np.sqrt(2), rel=0.02)
+
+
+def test_the_noise_of_a_part_has_no_line_in_it():
+    """White noise of 0.04 deg/s, and a line of 0.3 deg/s, beside attitudes."""
+    rng = np.random.default_rng(6)
+    angle = 0.5 * np.sin(2 * np.pi * np.outer(TIME, [0.31, 0.43, 0.27]))
+    turn = Rotation.from_euler("ZYX", angle)
+    gyro = RotationSpline(TIME, turn)(TIME, 1) + 7e-4 * rng.standard_normal((len(TIME), 3))
+    gyro[:, 1] += np.radians(0.3) * np.sin(2 * np.pi * 23.4 * TIME)
+    q = (turn * Rotation.from_rotvec(3e-4 * rng.standard_normal(gyro.shape))).as_quat()
+    log = Recording.from_arrays("line", time=TIME, gyro=gyro, ref_q=np.roll(q, 1, axis=1))
+    closed = pyimu.close(log)
+    assert [f.column for f in closed.quality if f.kind == "line"] == ["gyro_y"]
+    found = np.asarray(closed.after.gyro.values["angle_random_walk"]["N"])
+    assert found == pytest.approx(7e-4 * 0.1, rel=0.1)
