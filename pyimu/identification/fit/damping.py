@@ -33,8 +33,9 @@ def damping(current: Fit, by_sensor: bool = False) -> tuple[float, float]:
             beside = np.column_stack([np.ones(len(x)), x, clock])
             left, bent = (v - beside @ np.linalg.lstsq(beside, v)[0] for v in (left, bent))
             power, along = float(left @ left), float(left @ bent)
-            if power > 0.0 and bent.any():
-                share = along**2 / (power * float(bent @ bent))
+            both = power * float(bent @ bent)
+            if both > 0.0:
+                share = along**2 / both
                 gain -= 0.5 * len(left) * np.log1p(-min(share, 1.0 - 1e-12))
                 along_all += along * len(left) / power
                 power_all += float(bent @ bent) * len(left) / power
