@@ -125,8 +125,9 @@ def close(
             for f in (*rate_of_part(r, start.sample_rate), *beyond_range(r, ranges))
         ]
     forget()
+    left_out = weightless(quality)
     logs, others = (
-        [replace(r, accel=None) if r.name in weightless(quality) else r for r in some]
+        [replace(r, accel=None) if r.name in left_out else r for r in some]
         for some in (logs, others)
     )
     logs, others, turning = _on_time(start.gyro, logs, others, latitude)

@@ -23,7 +23,6 @@ TOGETHER = 0.5
 """Share of the gyro's power that the accelerometer must explain at a frequency: by chance three
 inputs explain a tenth in the fewest frames that are taken, and half of it never."""
 
-
 WINDOW = 1024
 """Rows of a spectrum in which lines are looked for."""
 

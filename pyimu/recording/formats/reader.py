@@ -67,6 +67,38 @@ class Reader(ABC):
         return f"row {index + 2}"
 
 
+class ReaderOver(Reader):
+    """A reader of what another ``reader`` reads, with other columns."""
+
+    reader: Reader
+
+    @property
+    def path(self):  # type: ignore[no-untyped-def, override]
+        return self.reader.path
+
+    @property
+    def crowded(self) -> bool:  # type: ignore[override]
+        return self.reader.crowded
+
+    @property
+    def in_memory(self) -> bool:  # type: ignore[override]
+        return self.reader.in_memory
+
+    @property
+    def skipped(self) -> tuple[str, ...]:  # type: ignore[override]
+        return self.reader.skipped
+
+    @property
+    def body(self) -> str | None:  # type: ignore[override]
+        return self.reader.body
+
+    def at_end(self) -> tuple[Finding, ...]:
+        return self.reader.at_end()
+
+    def place(self, index: int) -> str:
+        return self.reader.place(index)
+
+
 def as_number(column: np.ndarray, may_stay: bool) -> np.ndarray:
     """A column as float64, or as int64 where it ``may_stay`` of integers and is."""
     return np.ascontiguousarray(

@@ -11,7 +11,7 @@ import numpy as np
 from pyimu.errors import Finding
 from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.columns import own_name
-from pyimu.recording.formats.reader import Columns, Reader
+from pyimu.recording.formats.reader import Columns, Reader, ReaderOver
 
 _SECONDS = re.compile(r"(.*[^A-Za-z])?secs?|(.*[^A-Za-z])?seconds?", re.I)
 _PARTS = re.compile(r"(.*[^A-Za-z])?(?:n|nano)secs?|(.*[^A-Za-z])?nanoseconds?", re.I)
@@ -24,7 +24,7 @@ LATEST = 9e9
 
 
 @dataclass(frozen=True)
-class SplitTimeReader(Reader):
+class SplitTimeReader(ReaderOver):
     """What ``reader`` reads, with one column ``name`` [ns] for its columns at ``whole``, of
     seconds, and at ``part``, of nanoseconds.
     """
@@ -32,26 +32,6 @@ class SplitTimeReader(Reader):
     reader: Reader
     whole: int
     part: int
-
-    @property
-    def path(self):  # type: ignore[no-untyped-def, override]
-        return self.reader.path
-
-    @property
-    def crowded(self) -> bool:  # type: ignore[override]
-        return self.reader.crowded
-
-    @property
-    def in_memory(self) -> bool:  # type: ignore[override]
-        return self.reader.in_memory
-
-    @property
-    def skipped(self) -> tuple[str, ...]:  # type: ignore[override]
-        return self.reader.skipped
-
-    @property
-    def body(self) -> str | None:  # type: ignore[override]
-        return self.reader.body
 
     @property
     def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
@@ -96,15 +76,9 @@ class SplitTimeReader(Reader):
     def count(self, long: int) -> int | None:
         return self.reader.count(self._theirs[long])
 
-    def at_end(self) -> tuple[Finding, ...]:
-        return self.reader.at_end()
-
     def numeric(self) -> list[int]:
         theirs = set(self.reader.numeric())
         return [p for p, k in enumerate(self._theirs) if k in theirs]
-
-    def place(self, index: int) -> str:
-        return self.reader.place(index)
 
 
 def with_one_time(reader: Reader, foreign: ForeignMap) -> tuple[Reader, ForeignMap]:

@@ -8,40 +8,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyimu.errors import Finding
-from pyimu.recording.formats.reader import Columns, Reader
+from pyimu.recording.formats.reader import Columns, Reader, ReaderOver
 
 TIME = "time [s]"
 """The column that is added."""
 
 
 @dataclass(frozen=True)
-class TimedReader(Reader):
+class TimedReader(ReaderOver):
     """What ``reader`` reads, and behind it the column ``TIME``: sample k is at k / ``hertz``."""
 
     reader: Reader
     hertz: float
     source: str
     """Where the rate is from."""
-
-    @property
-    def path(self):  # type: ignore[no-untyped-def, override]
-        return self.reader.path
-
-    @property
-    def crowded(self) -> bool:  # type: ignore[override]
-        return self.reader.crowded
-
-    @property
-    def in_memory(self) -> bool:  # type: ignore[override]
-        return self.reader.in_memory
-
-    @property
-    def skipped(self) -> tuple[str, ...]:  # type: ignore[override]
-        return self.reader.skipped
-
-    @property
-    def body(self) -> str | None:  # type: ignore[override]
-        return self.reader.body
 
     @property
     def findings(self) -> tuple[Finding, ...]:  # type: ignore[override]
@@ -66,9 +46,3 @@ class TimedReader(Reader):
     def count(self, long: int) -> int | None:
         names = [k for k, name in enumerate(self.reader.header) if "gyr" in name or "acc" in name]
         return self.reader.count(names[0] if names else 0)
-
-    def at_end(self) -> tuple[Finding, ...]:
-        return self.reader.at_end()
-
-    def place(self, index: int) -> str:
-        return self.reader.place(index)
