@@ -18,7 +18,7 @@ recordings 02, 11 and 26, and not on the others.
 
 Three recordings of another part follow, a wand swung by hand (RepoIMU, Szczesna et al. 2016). Two
 of them drive an axis of its gyro to the limit, the first one over and over: by how much it turned
-meanwhile nobody knows, and both filters lose the attitude. The reference has an unknown mounting
+meanwhile the samples before and after tell roughly. The reference has an unknown mounting
 rotation, fitted for each filter to the nine tenths of the rows that agree best.
 
 A last table has the same with the magnetometer calibrated by the log itself, and by each other log

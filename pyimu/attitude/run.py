@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from pyimu.attitude.alignment import BIAS_STD, MagneticNorth, Yaw, initial_values, initial_yaw
+from pyimu.attitude.beyond_range import beyond_range
 from pyimu.attitude.bridged import bridged
 from pyimu.attitude.calibration import (
     MagnetometerCalibration,
@@ -107,11 +108,13 @@ def run(
     ``settings`` are values of other parameters of the block by name, or a filter's name:
     ``"hidalgo2012"`` is the one as published; as the value ``filter`` a name goes with others. A
     gap widens the estimate, and the row after it has bit 1 of the status. Single samples that are
-    missing are set between their neighbours (``bridged``), and have that bit, too. Headings with an
-    age in the recording's column ``heading_age`` correct what the attitude was then; without that
-    column they are taken to be as late as the gyro's turns show clearly (``heading_lag``). A clock
-    of the gyro that the part knows to be off, and a delay or a lag, are undone by its samples'
-    times; an accelerometer of which the part says no delay is taken to be as late.
+    missing are set between their neighbours (``bridged``), and have that bit, too; rates at the
+    gyro's limit are drawn beyond it where the log shows how (``beyond_range``), as well as the
+    ``lost_rate_std`` says that follows. Headings with an age in the recording's column
+    ``heading_age`` correct what the attitude was then; without that column they are taken to be as
+    late as the gyro's turns show clearly (``heading_lag``). A clock of the gyro that the part knows
+    to be off, and a delay or a lag, are undone by its samples' times; an accelerometer of which the
+    part says no delay is taken to be as late.
 
     With ``smooth`` each row is estimated from the whole recording, also from the rows that follow
     (``pyimu.attitude.filter.smoother``): attitude, bias and all standard deviations are those of
@@ -146,6 +149,7 @@ def run(
     wanted = calibration is not None or bool(magnetometer)
     field = magnetometer_of(recording, wanted and method == OWN)
     known = _known(declared, recording, rest)
+    recording, beyond = beyond_range(recording, known)
     block = OF_LOGS[method](known)
 
     def unaided(stop: int) -> AttitudeResult:
@@ -162,6 +166,7 @@ def run(
     north = _north(block, told | given) if field.used else None
     yaw = initial_yaw(recording, rest, heading0, turned, north) if q0 is None else Yaw()
     values = told | _of_the_log(recording, known, rest, field)
+    values |= {"lost_rate_std": beyond} if beyond else {}
     values |= _of_the_part(recording, known, None if declared is None else known)
     unseen = [values[f"std0[{i}]"] for i in (4, 5, 6)] if "std0[4]" in values else BIAS_STD
     values |= initial_values(recording, known, rest, latitude, q0, yaw, unseen)
