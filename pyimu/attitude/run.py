@@ -10,24 +10,8 @@ import casadi as ca
 import numpy as np
 
 from pyimu.attitude.alignment import BIAS_STD, MagneticNorth, Yaw, initial_values, initial_yaw
-from pyimu.attitude.beyond_range import beyond_range
-from pyimu.attitude.bridged import bridged
-from pyimu.attitude.calibration import (
-    MagnetometerCalibration,
-    calibrated,
-    calibration_of,
-    of_sensor,
-)
-from pyimu.attitude.columns import (
-    informed,
-    latitude_of,
-    nominal_part,
-    rate_noise,
-    recorded_age,
-    scale_std,
-    warmer,
-)
-from pyimu.attitude.contradicted import believed
+from pyimu.attitude.calibration import MagnetometerCalibration
+from pyimu.attitude.columns import latitude_of, rate_noise, recorded_age, scale_std, warmer
 from pyimu.attitude.driven import speed_share
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
@@ -38,9 +22,8 @@ from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
 from pyimu.attitude.heading_against_field import field_against_headings
 from pyimu.attitude.heading_lag import late_finding, timed
 from pyimu.attitude.input_grid import InputGrid
-from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
 from pyimu.attitude.outputs import filtered
-from pyimu.attitude.rest import Rest, find_rest
+from pyimu.attitude.prepared import Prepared
 from pyimu.attitude.result import AttitudeResult
 from pyimu.attitude.retiming import Retiming
 from pyimu.attitude.smoothing import smoothed
@@ -51,9 +34,7 @@ from pyimu.block.parameters import number, with_settings
 from pyimu.errors import Finding, UserError
 from pyimu.model.catalogue import WHITE
 from pyimu.model.part import Part
-from pyimu.model.part_file import part as part_of
 from pyimu.recording.log import Given, recording_of
-from pyimu.recording.quality.inspect import rate_of_part
 from pyimu.recording.recording import Recording
 from pyimu.silent import silent
 from pyimu.units import STANDARD_GRAVITY
@@ -127,7 +108,7 @@ def run(
     many finite numbers, and a setting that is unknown or outside its bounds; a place without date,
     beside a latitude, or beside a setting of what it tells.
     """
-    recording = _with_gyro(recording_of(recording))
+    recording = recording_of(recording)
     method, given = chosen(settings)
     world = _world(place, date, latitude, given)
     latitude = latitude_of(recording, latitude if place is None else float(place[0]))
@@ -137,19 +118,8 @@ def run(
     if smooth and method != OWN:
         raise UserError(f"smooth with the filter {method}: only {OWN} can be smoothed")
     gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
-    rest = find_rest(recording, gravity or STANDARD_GRAVITY)
-    declared = None if part is None else part_of(part)
-    as_given, calibration = recording, calibration_of(magnetometer)
-    recording, between = bridged(recording, rest, declared)
-    recording = believed(recording)
-    if calibration is None and declared is not None and bool(magnetometer):
-        calibration = None if recording.mag is None else of_sensor(declared.mag)
-    if calibration is not None:
-        recording = calibrated(recording, calibration)
-    wanted = calibration is not None or bool(magnetometer)
-    field = magnetometer_of(recording, wanted and method == OWN)
-    known = _known(declared, recording, rest)
-    recording, beyond = beyond_range(recording, known)
+    log = Prepared.of(recording, part, magnetometer, method == OWN, gravity)
+    recording, known, field = log.recording, log.known, log.field
     block = OF_LOGS[method](known)
 
     def unaided(stop: int) -> AttitudeResult:
@@ -164,12 +134,11 @@ def run(
 
     told = field.settings() | ({} if world is None else world.settings())
     north = _north(block, told | given) if field.used else None
-    yaw = initial_yaw(recording, rest, heading0, turned, north) if q0 is None else Yaw()
-    values = told | _of_the_log(recording, known, rest, field)
-    values |= {"lost_rate_std": beyond} if beyond else {}
-    values |= _of_the_part(recording, known, None if declared is None else known)
+    yaw = initial_yaw(recording, log.rest, heading0, turned, north) if q0 is None else Yaw()
+    values = told | _of_the_log(replace(log, recording=recording))
+    values |= _of_the_part(recording, known, None if log.declared is None else known)
     unseen = [values[f"std0[{i}]"] for i in (4, 5, 6)] if "std0[4]" in values else BIAS_STD
-    values |= initial_values(recording, known, rest, latitude, q0, yaw, unseen)
+    values |= initial_values(recording, known, log.rest, latitude, q0, yaw, unseen)
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
     if method == OWN:
         values |= of_motion(number("rate_noise", (values | given)["rate_noise"]))
@@ -177,7 +146,7 @@ def run(
     named = {n: v for n, v in values.items() if n in has} | given
     p = with_settings(block, named, "the attitude filter")
     outputs = _estimated(block, recording, known, p, smooth, heard)
-    outputs["status"][between] |= 1
+    outputs["status"][log.between] |= 1
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
     if field.used and getattr(recording, "heading", None) is not None:
         turning = parameters["field_turning_std"]
@@ -187,33 +156,17 @@ def run(
         recording.name,
         recording.time,
         **outputs,
-        recording=as_given,
-        rest=rest,
+        recording=log.as_given,
+        rest=log.rest,
         parameters=parameters,
-        part="" if declared is None else known.name,
+        part="" if log.declared is None else known.name,
         left_in=left_in(known, retimed=True),
         method=method,
         smoothed=smooth,
-        of_part=() if declared is None else tuple(rate_of_part(as_given, declared.sample_rate)),
+        of_part=log.of_part,
         of_heading=of_heading,
-        magnetometer=replace(field, calibration=calibration).in_world(world),
+        magnetometer=field.in_world(world),
     )
-
-
-def _with_gyro(recording: Recording) -> Recording:
-    """The recording. Raises UserError where it has no gyro, or one row."""
-    if recording.gyro is None:
-        raise UserError(f"{recording.name}: no gyro, an attitude needs gyro_x, gyro_y, gyro_z")
-    if len(recording.time) < 2:
-        raise UserError(f"{recording.name}: one sample, an attitude over time needs two or more")
-    return recording
-
-
-def _known(part: Part | None, recording: Recording, rest: Rest) -> Part:
-    """What is known of the sensors: the part, and of what it is silent the recording."""
-    if part is None:
-        return nominal_part(recording, rest)
-    return informed(part, recording, rest)
 
 
 def _unaided(
@@ -309,11 +262,12 @@ def _estimated(
 # Parameters
 
 
-def _of_the_log(
-    recording: Recording, known: Part, rest: Rest, field: Magnetometer
-) -> dict[str, float]:
+def _of_the_log(log: Prepared) -> dict[str, float]:
     """The settings that follow from what a recording has."""
-    values = stuck_times(recording, known, rest)
+    recording, known, field = log.recording, log.known, log.field
+    values = stuck_times(recording, known, log.rest)
+    if log.lost_rate_std:
+        values["lost_rate_std"] = log.lost_rate_std
     if recording.mag is not None and not field.used:
         values["field_tolerance"] = 0.0
     if WHITE[0] in known.mag.values:

@@ -1,7 +1,6 @@
 """Rates beyond a gyro's range are drawn as the body turned before and after, where that helps."""
 
 from dataclasses import replace
-from importlib import import_module
 
 import numpy as np
 import pytest
@@ -85,8 +84,8 @@ def test_the_attitude_is_better_by_it(monkeypatch, smooth):
         clipped, _ = cut(whole, 0.95)
         with_it = off(attitude.run(clipped, smooth=smooth), angle)
         with monkeypatch.context() as without:
-            run = import_module("pyimu.attitude.run")
-            without.setattr(run, "beyond_range", lambda log, part: (log, 0.0))
+            name = "pyimu.attitude.prepared.beyond_range"
+            without.setattr(name, lambda log, part: (log, 0.0))
             ratios.append(with_it / off(attitude.run(clipped, smooth=smooth), angle))
     assert np.median(ratios) < 0.5
 
