@@ -60,16 +60,20 @@ def shortened(text: object, most: int = 120) -> str:
 
 def read_toml(path: Path) -> dict[str, Any]:
     """What a TOML file holds. Raises UserError where it cannot be read or is none."""
+    return parse_toml(text_in(path), str(path))
+
+
+def text_in(path: Path) -> str:
+    """The text in a file. Raises UserError where it cannot be read, or is too large or no text."""
     check_regular(path)
     try:
         if path.stat().st_size > LARGEST_TEXT:
             raise UserError(f"{path}: larger than {LARGEST_TEXT >> 20} MiB, this is no such file")
-        text = path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
         raise UserError(f"{path}: is not text in UTF-8") from None
     except OSError as error:
         raise UserError(f"{path}: cannot be read ({error.strerror or error})") from None
-    return parse_toml(text, str(path))
 
 
 def parse_toml(text: str, file: str) -> dict[str, Any]:

@@ -59,6 +59,8 @@ def inspect(
     if guessed:
         kind = "guessed"
     proposals = _proposals(readers, maps, foreign)
+    if known is not None and known[1].frame:
+        data = {"frame": known[1].frame}
     text = text_of(_ordered(proposals), MapGiven(data, given[0].name))
     found = Inspection(given[0], kind, known[0] if known else "", proposals, text)
     say("reading")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import permutations
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.errors import Finding, UserError
 from pyimu.files import read_toml
+from pyimu.recording.angles import SEQUENCE
 from pyimu.recording.clock import RATES
 from pyimu.recording.columns import GROUPS, XYZ
 from pyimu.recording.counts import Scale, finite_number, read_scales
@@ -27,6 +29,8 @@ _NED = np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -1]])
 BODY = {"flu": np.eye(3), "frd": _FRD}
 """Rotations to forward-left-up from the axes of a name."""
 _WORLD = {"enu": np.eye(3), "ned": _NED}
+SEQUENCES = (SEQUENCE, *(s for s in map("".join, permutations("xyz")) if s != SEQUENCE))
+"""In which roll, pitch and yaw may turn, the usual one first."""
 _AXES = tuple(name for name, g in GROUPS.items() if g.suffixes == XYZ)
 """The groups that are vectors in body axes."""
 
@@ -42,6 +46,7 @@ class ForeignMap:
     body: np.ndarray | None = None
     world: str = "enu"
     q: str = "nb"
+    angles: str = SEQUENCE
     rate: float | None = None
     offset: float = 0.0
     files: tuple[tuple[str, ForeignMap], ...] = ()
@@ -56,6 +61,19 @@ class ForeignMap:
                     f"column{did_you_mean(name, header)}"
                 )
         return [self.columns.get(cell, cell) for cell in header]
+
+    @property
+    def frame(self) -> dict[str, Any]:
+        """The table ``[frame]`` that says its axes; empty of those of the package."""
+        body = None if self.body is None else self.body.tolist()
+        said = {
+            "body": next((name for name, axes in BODY.items() if axes.tolist() == body), body),
+            "world": self.world,
+            "q": self.q,
+            "angles": self.angles,
+        }
+        usual = ForeignMap()
+        return {k: v for k, v in said.items() if v is not None and v != getattr(usual, k)}
 
     def turn(self, groups: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
         """The groups in forward-left-up and east-north-up axes.
@@ -104,7 +122,7 @@ def map_of(data: Mapping[str, Any], path: Path) -> ForeignMap:
     known = ("columns", "frame", "scale", "topics", "sample_rate", "time_offset", "file")
     _known_keys(path, "", data, known)
     frame = data.get("frame", {})
-    _known_keys(path, "frame.", frame, ("body", "world", "q", "R"))
+    _known_keys(path, "frame.", frame, ("body", "world", "q", "R", "angles"))
     topics = _texts(path, "topics", data, "/imu/data")
     _known_keys(path, "topics.", topics, ("imu", "temperature"))
     foreign = ForeignMap(
@@ -115,6 +133,7 @@ def map_of(data: Mapping[str, Any], path: Path) -> ForeignMap:
         _body(path, frame),
         world=_choice(path, frame, "world", ("enu", "ned")),
         q=_choice(path, frame, "q", ("nb", "bn")),
+        angles=_choice(path, frame, "angles", SEQUENCES),
         rate=_rate(path, data.get("sample_rate")),
         offset=_offset(path, data.get("time_offset")),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
@@ -106,11 +106,32 @@ def column_names(group: str) -> tuple[str, ...]:
     return tuple(f"{group}_{suffix}" for suffix in GROUPS[group].suffixes) or (group,)
 
 
+ANGLES = ("ref_roll", "ref_pitch", "ref_yaw")
+"""Columns in which a file may have ``ref_q``: Rz(yaw) Ry(pitch) Rx(roll), body to world, in the
+file's own axes."""
+
+DOWNWARD = {f"{stem}_down": f"{stem}_up" for stem in ("ref", "ref_velocity", "position")} | {
+    "velocity_down": "velocity_up"
+}
+"""Columns that count downward, and those which they become with the other sign."""
+
 GROUP_OF = {name: group for group in GROUPS for name in column_names(group)} | {"time": "time"}
 """The group of each column: ``"gyro"`` of ``"gyro_x"``."""
 
 UNITS = {name: GROUPS[group].unit for name, group in GROUP_OF.items() if group != "time"}
+UNITS |= {name: UNITS[up] for name, up in DOWNWARD.items()} | dict.fromkeys(ANGLES, "rad")
 UNITS["time"] = "s"
+
+GROUP_OF |= {name: GROUP_OF[up] for name, up in DOWNWARD.items()} | dict.fromkeys(ANGLES, "ref_q")
+
+
+def written_as(group: str, names: Container[str]) -> tuple[str, ...]:
+    """The columns in which a file that has the columns ``names`` holds a group: of an attitude its
+    angles, where it is not there as a quaternion.
+    """
+    own = column_names(group)
+    angles = group == "ref_q" and not any(name in names for name in own)
+    return ANGLES if angles and any(name in names for name in ANGLES) else own
 
 
 def own_name(cell: str) -> str | None:

@@ -13,7 +13,14 @@ import numpy as np
 
 from pyimu import units
 from pyimu.errors import Finding, UserError
-from pyimu.recording.columns import GROUP_OF, GROUPS, UNITS, check_unit, column_names
+from pyimu.recording.columns import (
+    ANGLES,
+    GROUP_OF,
+    GROUPS,
+    UNITS,
+    check_unit,
+    column_names,
+)
 
 LEAST_ROWS = 100
 """Fewer whole numbers in a column are no sign of counts."""
@@ -53,6 +60,7 @@ def read_scales(path: Path, table: Any) -> Mapping[str, Scale]:
         raise UserError(f"{path}: key scale must be a table")
     names = {"time": ("time",)} | {group: column_names(group) for group in GROUPS}
     names |= {name: (name,) for group in GROUPS for name in column_names(group)}
+    names |= {name: (name,) for name in ANGLES}
     for key in table:
         if key not in names:
             raise UserError(

@@ -1,4 +1,5 @@
-"""Folders that are one log: a phone's, and a sequence of EuRoC MAV or TUM VI with its ground truth.
+"""Folders that are one log: a phone's, KITTI's ``oxts`` or the drive around it, and a sequence of
+EuRoC MAV or TUM VI with its ground truth.
 
 The sequence's layout is that of Burri et al. 2016 (EuRoC), which TUM VI keeps: ``mav0`` with a
 folder for each instrument, each with its ``data.csv``.
@@ -11,6 +12,7 @@ from typing import NamedTuple
 
 from pyimu.files import exists
 from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.formats.oxts import oxts_in
 from pyimu.recording.phone import is_phone, of_phone
 
 IMU, TABLE = "imu0", "data.csv"
@@ -18,7 +20,7 @@ IMU, TABLE = "imu0", "data.csv"
 TRUTHS = ("state_groundtruth_estimate0", "mocap0", "vicon0")
 """Instruments that are a reference, the best first."""
 
-LAYERS = ("mav0", IMU)
+LAYERS = ("mav0", IMU, "oxts")
 """Folders inside a sequence, which do not name it."""
 
 
@@ -40,11 +42,12 @@ def log_in(folder: Path) -> FolderLog | None:
         return None
     if is_phone(folder):
         return FolderLog(folder.resolve().name, *of_phone(folder))
-    table = next((p for p in _tables(folder) if p.is_file()), None)
-    if table is None:
-        return None
     named = next(p for p in (folder.resolve(), *folder.resolve().parents) if p.name not in LAYERS)
-    return FolderLog(named.name, table, ForeignMap(), truth_beside(table))
+    oxts = oxts_in(folder)
+    if oxts is not None:
+        return FolderLog(named.name, oxts, ForeignMap())
+    table = next((p for p in _tables(folder) if p.is_file()), None)
+    return table and FolderLog(named.name, table, ForeignMap(), truth_beside(table))
 
 
 def _tables(folder: Path) -> list[Path]:

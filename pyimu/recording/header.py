@@ -10,7 +10,16 @@ import numpy as np
 
 from pyimu import units
 from pyimu.errors import Finding, UserError
-from pyimu.recording.columns import GROUP_OF, GROUPS, UNITS, check_unit, column_names
+from pyimu.recording.columns import (
+    ANGLES,
+    DOWNWARD,
+    GROUP_OF,
+    GROUPS,
+    UNITS,
+    check_unit,
+    column_names,
+    written_as,
+)
 from pyimu.recording.counts import Scale
 
 LARGEST = 1e12
@@ -67,6 +76,7 @@ class Header:
         self._in_memory = in_memory
         self._scale = scale
         self._counted: set[str] = set()
+        self._downward: set[str] = set()
         self._given = {
             name.strip() for name, bracket, _ in (h.partition("[") for h in header) if bracket
         }
@@ -87,22 +97,30 @@ class Header:
 
     @property
     def groups(self) -> tuple[str, ...]:
-        return tuple(group for group in GROUPS if column_names(group)[0] in self.names)
+        return tuple(group for group in GROUPS if self.written_as(group)[0] in self.names)
+
+    def written_as(self, group: str) -> tuple[str, ...]:
+        """The columns in which the file holds a group: an attitude may be there as angles."""
+        return written_as(group, self.names)
 
     @property
     def group_units(self) -> dict[str, str]:
         """The stated unit of each group, of its first column; none of a group in counts."""
         found = dict(zip(self.names, self.units, strict=True))
-        firsts = {group: column_names(group)[0] for group in self.groups}
+        firsts = {group: self.written_as(group)[0] for group in self.groups}
         return {g: found[n].plain for g, n in firsts.items() if n not in self._counted}
 
     def _add(self, position: int, cell: str) -> None:
         name, _, rest = cell.partition("[")
         name, unit = name.strip(), rest.strip()
-        if name not in UNITS or self._is_replaced(position, name, cell):
+        if (
+            name not in UNITS
+            or self._is_replaced(position, name, cell)
+            or self._is_said_otherwise(name)
+        ):
             self._unknown(name, cell)
             return
-        if name in self.names:
+        if DOWNWARD.get(name, name) in self.names:
             raise UserError(f"{self.path}: column {name} stands twice in the header")
         if not unit.endswith("]"):
             look = f"; pyimu inspect {self.path} looks which one the numbers fit"
@@ -111,6 +129,9 @@ class Header:
                 f"({OFTEN.get(UNITS[name], UNITS[name])})",
                 "" if self._in_memory else look,
             )
+        if name in DOWNWARD:
+            name = DOWNWARD[name]
+            self._downward.add(name)
         self.names.append(name)
         self.positions.append(position)
         self.units.append(self._unit(name, unit[:-1]))
@@ -119,6 +140,14 @@ class Header:
         """Whether a column's own name says no unit, and a map gives the name to another one."""
         own = position < len(self._cells) and self._cells[position] == cell
         return own and cell.strip() == name and name in self._given
+
+    def _is_said_otherwise(self, name: str) -> bool:
+        """Whether a height counts upward in another column, or an attitude is a quaternion there,
+        so that one of the two is enough.
+        """
+        if name in ANGLES:
+            return any(column in self._given for column in column_names("ref_q"))
+        return DOWNWARD.get(name) in self._given
 
     def _unit(self, name: str, text: str) -> units.Unit:
         if text.strip().casefold() in COUNT:
@@ -158,17 +187,19 @@ class Header:
                 self._inspected(),
             )
         for group in GROUPS:
-            missing = [name for name in column_names(group) if name not in self.names]
-            if missing and len(missing) < len(column_names(group)):
+            needed = self.written_as(group)
+            missing = [name for name in needed if name not in self.names]
+            if missing and len(missing) < len(needed):
                 raise UserError(
                     f"{self.path}: column {missing[0]} is missing, {group} needs "
-                    f"{', '.join(column_names(group))}"
+                    f"{', '.join(needed)}"
+                    + ("; a yaw alone is ref_heading" if needed == ANGLES else "")
                 )
         if self._wanted == "reference" and not any(name.startswith("ref_") for name in self.names):
             raise UserError(
-                f"{self.path}: no reference in it; it needs ref_q, ref_rate, ref_heading, "
-                "ref_north and ref_east, ref_velocity or ref_force, or a column map (TOML) that "
-                "names them"
+                f"{self.path}: no reference in it; it needs ref_q (or ref_roll, ref_pitch and "
+                "ref_yaw), ref_rate, ref_heading, ref_north and ref_east, ref_velocity or "
+                "ref_force, or a column map (TOML) that names them"
             )
         if self._wanted == "sensor" and "gyro_x" not in self.names and "accel_x" not in self.names:
             raise UserError(
@@ -241,6 +272,7 @@ class Header:
             if UNITS[name] == "degC"
             else units.convert(column, unit, UNITS[name])
         )
+        values = -values if name in self._downward else values
         with np.errstate(invalid="ignore"):
             return np.where(np.abs(values) <= LARGEST, values, np.nan)
 

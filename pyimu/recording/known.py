@@ -12,9 +12,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from pyimu.errors import Finding
-from pyimu.recording.column_map import ForeignMap
-from pyimu.recording.columns import GROUP_OF, XYZ, own_name
+from pyimu.recording.column_map import BODY, ForeignMap
+from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
 from pyimu.recording.counts import Scale
+from pyimu.recording.formats.oxts import CLOCK, TIME, is_oxts
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.names import DERIVED, TRUTHS, named, others, surest, triads
 from pyimu.units import parse
@@ -29,11 +30,13 @@ Known = tuple[str, ForeignMap]
 """What the log is, and its map."""
 
 
-def recognised(reader: Reader) -> Known | None:
-    """What is known of the log in ``reader``, None where nothing is."""
+def recognised(reader: Reader, wanted: str = "sensor") -> Known | None:
+    """What is known of the log in ``reader``, None where nothing is; ``wanted`` is what it must
+    hold, see ``Header``.
+    """
     if is_own(reader.header):
         return None
-    for name, test in FORMATS:
+    for name, test in (*(TRUTHS_OF if wanted == "reference" else ()), *FORMATS):
         columns = test(reader)
         if columns is not None:
             return name, columns
@@ -212,6 +215,65 @@ def _phone(reader: Reader) -> ForeignMap | None:
     return None
 
 
+def _nclt_imu(reader: Reader) -> ForeignMap | None:
+    """NCLT's ``ms25.csv`` (Carlevaris-Bianco et al. 2016): a table without names, times in us since
+    1970, field in gauss, m/s^2, rad/s, forward-right-down.
+    """
+    cells = _unnamed(reader, "ms25", 10)
+    if cells is None:
+        return None
+    columns = {cells[0]: "time [us]"} | _triad(cells[1:4], "mag", "gauss")
+    columns |= _triad(cells[4:7], "accel", "m/s^2") | _triad(cells[7:10], "gyro", "rad/s")
+    return ForeignMap(columns=columns, body=BODY["frd"])
+
+
+def _nclt_truth(reader: Reader) -> ForeignMap | None:
+    """NCLT's ``groundtruth_DATE.csv``: times in us, north, east and down m, roll, pitch and heading
+    rad of a body forward-right-down.
+    """
+    cells = _unnamed(reader, "groundtruth", 7)
+    if cells is None:
+        return None
+    targets = ("ref_north [m]", "ref_east [m]", "ref_down [m]", *(f"{a} [rad]" for a in ANGLES))
+    columns = dict(zip(cells, ("time [us]", *targets), strict=True))
+    return ForeignMap(columns=columns, body=BODY["frd"], world="ned")
+
+
+def _unnamed(reader: Reader, begin: str, width: int) -> list[str] | None:
+    """The cells of a table of so many columns without names, in a file whose name has a ``begin``;
+    None of any other.
+    """
+    bare = all(re.fullmatch(r"column \d+", cell) for cell in reader.header)
+    name = reader.path.name.casefold()
+    return (
+        reader.header if bare and len(reader.header) == width and name.startswith(begin) else None
+    )
+
+
+def _oxts(reader: Reader) -> ForeignMap | None:
+    """KITTI's ``oxts`` (Geiger et al. 2013, dataformat.txt): rad/s, m/s^2, degrees of latitude, in
+    axes forward-left-up. Its attitude and velocities are what the unit's own filter made.
+    """
+    if not is_oxts(reader):
+        return None
+    columns = {TIME: f"time [{CLOCK}]", "lat": "latitude [deg]"}
+    columns |= _triad(["wx", "wy", "wz"], "gyro", "rad/s")
+    columns |= _triad(["ax", "ay", "az"], "accel", "m/s^2")
+    return ForeignMap(columns=columns)
+
+
+def _oxts_truth(reader: Reader) -> ForeignMap | None:
+    """The same for another sensor beside it: roll, pitch and yaw, this one from east, and the
+    velocity over the ground.
+    """
+    if not is_oxts(reader):
+        return None
+    columns = {TIME: f"time [{CLOCK}]", "lat": "latitude [deg]"}
+    columns |= {cell: f"ref_{cell} [rad]" for cell in ("roll", "pitch", "yaw")}
+    ways = {"ve": "east", "vn": "north", "vu": "up"}
+    return ForeignMap(columns=columns | {c: f"ref_velocity_{w} [m/s]" for c, w in ways.items()})
+
+
 PHONE_FILES: Mapping[str, tuple[str, str]] = {
     "GyroscopeUncalibrated": ("gyro", "rad/s"),
     "Gyroscope": ("gyro", "rad/s"),
@@ -229,7 +291,13 @@ FORMATS = (
     ("Xsens, by its manuals", _xsens),
     ("rostopic echo -p, by the message's definition", _rostopic),
     ("Sensor Logger, by its documentation", _phone),
+    ("NCLT's inertial unit, by its description", _nclt_imu),
+    ("NCLT's ground truth, by its description", _nclt_truth),
+    ("KITTI's oxts, by its description", _oxts),
 )
+
+TRUTHS_OF = (("KITTI's oxts, by its description", _oxts_truth),)
+"""Logs that hold a reference for other sensors, too."""
 
 
 def stated(reader: Reader) -> ForeignMap | None:
@@ -273,6 +341,10 @@ def stated(reader: Reader) -> ForeignMap | None:
 def merged(
     known: ForeignMap, given: ForeignMap, files: tuple[tuple[str, ForeignMap], ...]
 ) -> ForeignMap:
-    """The ``given`` map with the columns that are ``known``, and the further ``files``."""
+    """The ``given`` map with the columns that are ``known``, and the further ``files``; with its
+    axes, too, where it says none.
+    """
     scale = {**known.scale, **given.scale}
-    return replace(given, columns=known.columns, scale=scale, files=files, notes=known.notes)
+    whole = replace(given, columns=known.columns, scale=scale, files=files, notes=known.notes)
+    body = known.body if given.body is None else given.body
+    return replace(whole, body=body, world=known.world if given.world == "enu" else given.world)

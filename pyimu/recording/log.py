@@ -273,6 +273,7 @@ def read_recording(path: str | os.PathLike, columns: str | os.PathLike | None = 
         body = "frd"     # "flu", or a 3 x 3 rotation R with v_flu = R v_log (also as the key R)
         world = "ned"    # "enu"; in ned a heading is a compass heading
         q = "bn"         # world to body; "nb" is body to world
+        angles = "xyz"   # ref_roll, ref_pitch, ref_yaw turn about x first; else "zyx"
         [scale]
         accel = {value = 0.061, unit = "mg"}    # of one count; also an offset, in the same unit
         [topics]

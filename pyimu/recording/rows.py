@@ -12,9 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from pyimu.errors import Finding, UserError
+from pyimu.recording.angles import of_angles
 from pyimu.recording.coarse import COARSE_STAMPS, EvenTimes, even_times
 from pyimu.recording.column_map import BODY, ForeignMap, read_map
-from pyimu.recording.columns import GROUPS, column_names, own_name
+from pyimu.recording.columns import ANGLES, GROUPS, column_names, own_name
 from pyimu.recording.counter import BITS, NEARLY, Unwrapped
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.folders import log_in
@@ -29,6 +30,9 @@ from pyimu.recording.waking import Waking
 
 NORM_TOLERANCE = 1e-2
 """How far the norm of a reference quaternion may be from one before it is reported."""
+
+STEEPEST = 1.01 * np.pi
+"""rad; more is no pitch, in whatever way it is counted, but for rounding."""
 
 LEAST_ROWS = 3
 """A recording has at least so many samples."""
@@ -90,7 +94,7 @@ class Source:
         is_known = False
         reader, foreign = with_one_time(reader, foreign)
         if not foreign.columns:
-            known = recognised(reader)
+            known = recognised(reader, wanted)
             if known is not None:
                 foreign = merged(known[1], foreign, foreign.files)
                 findings, is_known = tuple(said(known, reader.header)), True
@@ -330,16 +334,29 @@ class Rows:
         """The groups, in the axes of the package."""
         groups = {}
         for group in self.source.header.groups:
-            columns = [values[name] for name in column_names(group)]
+            columns = [values[name] for name in self.source.header.written_as(group)]
             groups[group] = np.column_stack(columns) if GROUPS[group].suffixes else columns[0]
         if "ref_q" in groups:
-            groups["ref_q"] = self._normalised(groups["ref_q"])
+            groups["ref_q"] = self._attitude(groups["ref_q"])
         for name in (
             name for group in ("gyro", "accel") if group in groups for name in column_names(group)
         ):
             missing = int(np.count_nonzero(np.isnan(values[name])))
             self._tally.add([Finding("missing_cells", name, missing)] if missing else [])
         return self.source.foreign.turn(groups)
+
+    def _attitude(self, columns: np.ndarray) -> np.ndarray:
+        """Unit quaternions of those in a file, or of its angles (n, 3) rad."""
+        header = self.source.header
+        if header.written_as("ref_q") != ANGLES:
+            return self._normalised(columns)
+        steepest = float(np.nanmax(np.abs(columns[:, 1]), initial=0.0))
+        if header.group_units["ref_q"] == "rad" and steepest > STEEPEST:
+            raise UserError(
+                f"{header.path}: ref_pitch goes to {steepest:.3g} rad, and no pitch is beyond half "
+                "a turn: are ref_roll, ref_pitch and ref_yaw in deg?"
+            )
+        return of_angles(columns, self.source.foreign.angles)
 
     def _normalised(self, q: np.ndarray) -> np.ndarray:
         """Unit quaternions.

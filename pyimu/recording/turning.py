@@ -45,6 +45,17 @@ def drawn(count: int, most: int) -> np.ndarray:
     return np.linspace(0, count - 1, min(count, most)).astype(int)
 
 
+def busiest(recording: Recording, longest: float) -> tuple[int, int]:
+    """Rows (start, stop) of the ``longest`` s in which the gyro turns most, all of a short log."""
+    count = round(longest / recording.sample_period)
+    if count >= len(recording):
+        return 0, len(recording)
+    power = np.sum(np.square(np.nan_to_num(recording.gyro)), axis=1)
+    whole = np.cumsum(np.append(0.0, power))
+    start = int(np.argmax(whole[count:] - whole[:-count]))
+    return start, start + count
+
+
 def turning_spans(recording: Recording, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """What the gyro turns in the steps of m spans in which it does, and ``values`` (n, 3) there.
 

@@ -10,6 +10,7 @@ from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import course_of
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.smoother import Smooth, _smooth, smoothed
+from pyimu.recording.reference.track import Track
 
 NOISE = 0.02
 
@@ -185,3 +186,10 @@ def test_positions_without_noise_keep_their_course(every):
     np.testing.assert_allclose(
         found[known] @ rate[known] / np.sum(rate[known] ** 2), 1.0, atol=1e-3
     )
+
+
+def test_a_place_that_never_changes_has_no_spikes():
+    """Its steps are zero, and so is the largest of them and what they are measured by."""
+    time, place = np.arange(200) / 50.0, np.zeros((200, 3))
+    track = Track(time, np.arange(200), lambda n: np.diff(place[n], axis=0), 0.0)
+    assert not track.findings and [len(nodes) for nodes in track.segments] == [200]

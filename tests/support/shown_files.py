@@ -41,6 +41,14 @@ def shown_in_the_docs(x, k: Parameter("{y}/(rad/s)"), w: Environment("rate")):
     return x + k * ca.sqrt(ca.sumsqr(w) + 1e-12)
 """
 
+ANGLES = """\
+[columns]
+t = "time [s]"
+roll = "ref_roll [deg]"
+pitch = "ref_pitch [deg]"
+yaw = "ref_yaw [deg]"
+"""
+
 CALIBRATION = """\
 bias = {value = [0.0, 0.0, 0.0], unit = "uT"}
 matrix = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
@@ -85,6 +93,31 @@ def attitudes(path: Path) -> None:
     half = turned(log.time)[0] / 2
     q = np.column_stack([np.cos(half), 0 * half, 0 * half, np.sin(half)])
     Recording.from_arrays(time=log.time, ref_q=q).write(path)
+
+
+def nclt(path: Path) -> None:
+    """``driven`` in the layout of NCLT, forward-right-down, with its truth."""
+    log = driven()
+    stamps = 1326030975726043 + np.round(1e6 * log.time)
+    if path.name == "ms25.csv":
+        down = [v * [1.0, -1.0, -1.0] for v in (1e4 * log.mag, log.accel, log.gyro)]
+        table(path, np.column_stack([stamps, *down]))
+    else:
+        yaw = np.pi / 2 - turned(log.time)[0]
+        table(path, np.column_stack([stamps, *np.zeros((5, len(yaw))), yaw]))
+
+
+def angles(path: Path) -> None:
+    """The attitude of ``driven`` as roll, pitch and yaw in degrees."""
+    log = driven()
+    yaw = np.degrees(turned(log.time)[0])
+    table(path, np.column_stack([log.time, 0 * yaw, 0 * yaw, yaw]), "t,roll,pitch,yaw")
+
+
+def table(path: Path, rows: np.ndarray, head: str = "") -> None:
+    np.savetxt(path, rows, fmt="%.17g", delimiter=",", header=head, comments="")
+    if not head:
+        path.write_text(path.read_text().lstrip("\n"))
 
 
 def from_repoimu(path: Path) -> None:
@@ -138,6 +171,10 @@ FILES: dict[str, Maker] = {
         for k, name in enumerate(("first", "second", "third"))
     },
     "mocap.csv": attitudes,
+    "ms25.csv": nclt,
+    "groundtruth_2012-01-08.csv": nclt,
+    "angles.csv": angles,
+    "angles.toml": text(ANGLES),
     "square.csv": written(square),
     "tstick07.csv.gz": from_repoimu,
     "broad11.csv.gz": written(driven),

@@ -6,13 +6,12 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.clock import is_still
 from pyimu.identification.reference.moving import (
     LEAST_ROWS,
     in_own_band,
-    moving_rows,
+    moving_pair,
     turned_onto,
 )
 from pyimu.identification.reference.of_itself import is_of_itself
@@ -115,9 +114,8 @@ def mistaken(trial: Trial) -> str:
     Mirrored axes, an axis that counts the other way, or numbers of another size than any scale
     factor makes; nothing where none is.
     """
-    trial, axes = in_own_band(trial), list(trial.axes)
-    rows = moving_rows(trial)
-    x, y = (in_band(trial, v[:, axes])[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
+    axes = list(trial.axes)
+    x, y = moving_pair(trial)
     if len(y) < LEAST_ROWS:
         return ""
     x, y = x - x.mean(axis=0), y - y.mean(axis=0)

@@ -23,6 +23,7 @@ from pyimu.identification.fit.trial import MOVING, Trial, marked
 from pyimu.identification.reference.moving import (
     LEAST_ROWS,
     in_own_band,
+    moving_pair,
     moving_rows,
     turned_onto,
 )
@@ -130,9 +131,7 @@ def explained_by(trial: Trial) -> float:
 
     Below zero where it is further off than nothing.
     """
-    trial, axes = in_own_band(trial), list(trial.axes)
-    rows = moving_rows(trial)
-    x, y = (in_band(trial, v[:, axes])[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
+    x, y = moving_pair(trial)
     if len(y) < LEAST_ROWS:
         return 1.0
     x, y = x - x.mean(axis=0), y - y.mean(axis=0)

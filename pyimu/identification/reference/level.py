@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -11,6 +11,7 @@ from pyimu.attitude.error import angle_between, root_mean_square
 from pyimu.attitude.reference_reading import BETTER
 from pyimu.model.typical import CLASSES, magnitudes
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.orders import read_as
 from pyimu.units import STANDARD_GRAVITY
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -44,10 +45,7 @@ class Leaning:
 
     def levelled(self, recording: Recording) -> Recording:
         """The recording with a reference attitude whose world is level, its heading left open."""
-        source = recording.reference
-        if source is not None and source.ref_q is not None:
-            source = replace(source, ref_q=self._levelled(source.ref_q))
-        return replace(recording, ref_q=self._levelled(recording.ref_q), reference=source)
+        return read_as(recording, self._levelled)
 
     def _levelled(self, q: np.ndarray) -> np.ndarray:
         known, turned = np.isfinite(q).all(axis=1), np.full_like(q, np.nan)

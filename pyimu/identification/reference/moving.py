@@ -34,6 +34,14 @@ def in_own_band(trial: Trial) -> Trial:
     return replace(trial, band_hz=band)
 
 
+def moving_pair(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
+    """What reference and sensor (m, axes) show on the moving rows of the band of the two."""
+    trial, axes = in_own_band(trial), list(trial.axes)
+    rows = moving_rows(trial)
+    x, y = (in_band(trial, v[:, axes])[rows] for v in (trial.u[:, OWN[trial.kind]], trial.y))
+    return x, y
+
+
 def turned_onto(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """The rotation (3, 3) with x @ rotation nearest to y, (m, 3) each (Kabsch's algorithm)."""
     left, _, right = np.linalg.svd(x.T @ y)

@@ -19,6 +19,7 @@ from pyimu.recording.formats.bag import BagReader
 from pyimu.recording.formats.dataflash import DataflashReader
 from pyimu.recording.formats.hdf5 import Hdf5Reader
 from pyimu.recording.formats.mat import MatReader
+from pyimu.recording.formats.oxts import OxtsReader, oxts_in
 from pyimu.recording.formats.parquet import ParquetReader
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.text import CsvReader
@@ -57,6 +58,8 @@ def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
     none.
     """
     folder = exists(path) and path.is_dir()
+    if folder and oxts_in(path) == path and not topics:
+        return OxtsReader.open(path)
     if folder and not (path / "metadata.yaml").is_file():
         raise UserError(f"{path}: a folder, give the files in it")
     if not folder:

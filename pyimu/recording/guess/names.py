@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from pyimu.recording.guess.endings import GLUED, fits, in_brackets, in_words
 from pyimu.recording.spelling import unit_of
-from pyimu.units import Unit, parse
+from pyimu.units import Unit, parse, same_dimension
 
 STRONG = {
     "gyro": {"gyr", "gyro", "gyros", "gyroscope", "omega", "angvel"},
@@ -266,3 +266,47 @@ def _counted(cell: str) -> tuple[tuple[str, ...], str] | None:
     if match is None:
         return None
     return tuple(word.casefold() for word in _WORD.findall(match[1])), "wxyz"[int(match[2])]
+
+
+TURNS = {"roll": "ref_roll", "pitch": "ref_pitch", "yaw": "ref_yaw", "heading": "ref_yaw"}
+"""Words for the angles of an attitude."""
+
+AROUND = {"angle", "euler", "rpy", "att", "attitude", "orientation", "pose"}
+"""Words that may stand beside one of them."""
+
+
+def angles(header: Sequence[str]) -> dict[str, int]:
+    """Positions of roll, pitch and yaw by ``ref_roll`` and so on, of a reference where several have
+    such names; empty where not all three are there.
+    """
+    found: dict[bool, dict[str, int]] = {True: {}, False: {}}
+    for position, cell in enumerate(header):
+        words = set(named(cell).words)
+        turn = words & set(TURNS)
+        if len(turn) == 1 and not words - turn - AROUND - TRUTHS:
+            target = TURNS[turn.pop()]
+            found[bool(words & TRUTHS)].setdefault(target, position)
+    whole = [at for at in (found[True], found[False]) if len(at) == 3]
+    return whole[0] if whole else {}
+
+
+def is_truth(cell: str) -> bool:
+    """Whether a column is called a reference."""
+    return bool(set(named(cell).words) & TRUTHS)
+
+
+PLACES = {"north": "ref_north", "east": "ref_east", "down": "ref_down", "up": "ref_up"}
+"""Words for a place; one of them alone, or beside a word for a position."""
+
+
+def places(header: Sequence[str]) -> dict[str, int]:
+    """Positions of a reference's place by ``ref_north`` and so on, empty without north and east."""
+    found: dict[str, int] = {}
+    for position, cell in enumerate(header):
+        name = named(cell)
+        words = set(name.words)
+        place = words & set(PLACES)
+        of_length = name.unit is None or same_dimension(name.unit, "m")
+        if len(place) == 1 and of_length and not words - place - {"pos", "position", *TRUTHS}:
+            found.setdefault(PLACES[place.pop()], position)
+    return found if {"ref_north", "ref_east"} <= set(found) else {}

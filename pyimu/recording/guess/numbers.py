@@ -38,6 +38,9 @@ right unit, and none of a wand that is swung, of fast shifts by hand and of a lo
 FASTEST = 100.0
 """rad/s; hands, vehicles and robots do not turn as fast: larger numbers are degrees a second."""
 
+WRAP = 0.05
+"""How near to a whole turn a step of an angle must come to be one that is counted anew."""
+
 SENSITIVITIES = {
     **dict.fromkeys((262.4, 131.0, 65.5, 32.8, 16.4), "InvenSense and Bosch"),
     **{1000 / mdps: f"ST, {mdps:g} mdps/LSB" for mdps in (4.375, 8.75, 17.5, 35.0, 70.0, 140.0)},
@@ -168,6 +171,24 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
             f"there is no {'accelerometer' if force is None else 'time of a known unit'} beside it"
         )
     return UnitGuess(None, f"rad/s or deg/s? {lacks} to tell")
+
+
+def angle_unit(angles: np.ndarray) -> UnitGuess:
+    """The unit of roll, pitch and yaw (n, 3): where one begins anew behind a whole turn, by that;
+    else by their size, of which no pitch has more than a quarter of a turn.
+    """
+    known = angles[np.isfinite(angles).all(axis=1)]
+    if not len(known):
+        return UnitGuess(None, "there are no angles")
+    largest, steps = np.abs(known).max(axis=0), np.abs(np.diff(known, axis=0))
+    turns = (("deg", 360.0), ("rad", 2 * np.pi))
+    for unit, turn in turns:
+        if np.any(np.abs(steps / turn - 1) < WRAP) and largest.max() < 1.1 * turn:
+            return UnitGuess(unit, f"an angle goes on from {turn:.4g} at 0 then, a whole turn")
+    if largest[1] > 1.01 * np.pi / 2 or largest.max() > 1.01 * 2 * np.pi:
+        return UnitGuess("deg", f"they go to {largest.max():.4g}, more than angles in rad would")
+    why = f"they go to {largest.max():.3g}; in deg it would turn no further than that"
+    return UnitGuess("rad", why)
 
 
 def sensitivities(lsb: float) -> UnitGuess | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from pyimu.brief import Brief
 from pyimu.errors import UserError
-from pyimu.recording.columns import GROUP_OF, XYZ, own_name
+from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
 from pyimu.recording.counter import Unwrapped
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.endings import fits
@@ -18,9 +18,12 @@ from pyimu.recording.guess.names import (
     DERIVED,
     TRUTHS,
     Name,
+    angles,
     attitude,
+    is_truth,
     named,
     others,
+    places,
     quaternions,
     surest,
     triads,
@@ -28,12 +31,13 @@ from pyimu.recording.guess.names import (
 from pyimu.recording.guess.numbers import (
     SECONDS,
     UnitGuess,
+    angle_unit,
     force_unit,
     rate_unit,
     resting_size,
     time_unit,
 )
-from pyimu.units import FREEZING
+from pyimu.units import FREEZING, same_dimension
 
 MOST = 200_000
 """Rows that are looked at."""
@@ -50,6 +54,7 @@ CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
 CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s"), "mag": ("uT", "gauss")} | {
     "accel": ("m/s^2", "g"),
     "temperature": ("degC", "K"),
+    "ref_q": ("rad", "deg"),
 }
 """Units to choose from where nothing tells."""
 
@@ -174,7 +179,7 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     picked = {g: _surest(found, vectors, g) for g in ("accel", "gyro", "mag")}
     attitudes = _attitudes(reader, numbers)
     if picked["accel"] is None and picked["gyro"] is None:
-        away = {k for at in attitudes for k in at.values()}
+        away = {k for at in attitudes for k in at.values()} | set(angles(reader.header).values())
         picked = _by_numbers(found, reader, numbers, period, away) | {"mag": picked["mag"]}
     for group in ("accel", "gyro"):
         if picked[group] is None:
@@ -189,6 +194,8 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
             _vector(found, group, picked[group], numbers, force, period)
     _temperature(found, reader)
     _reference(found, reader, attitudes)
+    _angles(found, reader, numbers)
+    _place(found, reader)
     _own(found, reader)
     return found
 
@@ -483,3 +490,36 @@ def _reference(found: Proposal, reader: Reader, attitudes: Sequence[dict[str, in
         return
     why = f"{why} see [frame]"
     found.add([Guess(reader.header[at[a]], f"ref_q_{a}", "1", why) for a in "wxyz"])
+
+
+def _angles(found: Proposal, reader: Reader, numbers: Numbers) -> None:
+    """Add a reference's roll, pitch and yaw: by their names, or those of a file that has no sensor.
+
+    Beside a sensor they may be an estimate, and are noted.
+    """
+    at = angles(reader.header)
+    if not at or not set(at.values()) <= set(numbers.positions) or "ref_q" in found.groups:
+        return
+    cells = [reader.header[at[target]] for target in ANGLES]
+    if {"gyro", "accel"} & set(found.groups) and not all(map(is_truth, cells)):
+        found.notes.append(
+            f"{', '.join(cells)} are left out: an estimate, or a reference's {', '.join(ANGLES)}?"
+        )
+        return
+    units = {named(cell).unit for cell in cells}
+    unit = units.pop() if len(units) == 1 else None
+    guess = UnitGuess(unit, "the header says so")
+    if unit is None or not same_dimension(unit, "rad"):
+        guess = angle_unit(numbers.of([at[target] for target in ANGLES]))
+    why = f"{guess.why}; yaw first, then pitch, then roll? from north, or nose up: see [frame]"
+    found.add([Guess(c, t, guess.unit, why) for c, t in zip(cells, ANGLES, strict=True)])
+
+
+def _place(found: Proposal, reader: Reader) -> None:
+    """Add north, east and down or up of a file that holds a reference alone."""
+    if found.holds != "reference":
+        return
+    for target, position in places(reader.header).items():
+        name = named(reader.header[position])
+        unit, said = name.unit or "m", "the header says so" if name.unit else "a place, in m?"
+        found.add([Guess(name.cell, target, unit, said)])

@@ -38,7 +38,7 @@ FRAME = (
     "# Axes, where they are not forward-left-up and east-north-up:",
     "# [frame]",
     '# body = "frd"     # forward-right-down, or a 3 x 3 rotation',
-    '# world = "ned"    # north-east-down',
+    '# world = "ned"    # north-east-down: a heading, or a yaw, counts clockwise from north',
     '# q = "bn"         # a reference attitude that is world to body',
 )
 

@@ -113,7 +113,7 @@ class Track:
         if not whole:
             return []
         gate = max(self.least, SPIKE_RATIO * float(np.quantile(np.concatenate(spikes), 0.95)))
-        if max(s.max() for s in spikes) < gate:
+        if max(s.max() for s in spikes) <= gate:
             return whole
         sizes = [np.linalg.norm(d, axis=1) for d in changes]
         step_gate = STEP_RATIO * float(np.quantile(np.concatenate(sizes), 0.9))
