@@ -33,7 +33,7 @@ from pyimu.identification.magnetometer.model import magnetic, with_magnetometer
 from pyimu.identification.model_of import Found, Model
 from pyimu.identification.noise.named import Noise, noise_of
 from pyimu.identification.overview import Overview, overview
-from pyimu.identification.ranges import beyond
+from pyimu.identification.ranges import beyond, set_to_zero
 from pyimu.identification.reference.gravity import few
 from pyimu.identification.reference.order import other_order
 from pyimu.identification.references import references
@@ -107,7 +107,7 @@ def conclude(
         beside=of_magnetometer(magnetometer, declared is not None),
         attitude=attitude,
         lost=lost,
-        ranges=beyond(quality),
+        ranges=(*beyond(quality), *set_to_zero(quality, [(a.sensor, a.effect) for a in added])),
         clocks=tuple(filter(None, (undone(quality), taken_out(found, heading)))),
         formulas={f.name: f.said for f in formulas},
         unshown=_unshown(found),

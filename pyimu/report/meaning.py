@@ -98,6 +98,7 @@ MEANING = {
     "vibration": "gyro and accelerometer shake together: a motor; it is motion, no error of theirs",
     "warm_up": "the output settles after the start; what it settles by was taken out",
     "wrapped": "steps of the whole range of a word: a count ran over, and its sign with it",
+    "zeroed": "set to zero where it is small, by firmware: a dead zone, and no sensor that hung",
     "zeros_left_out": "rows of zeros before the sensor measured: they were left out",
 }
 """By kind of finding."""

@@ -7,7 +7,9 @@ from functools import cache
 import numpy as np
 
 from pyimu.identification.fit.trial import Trial
+from pyimu.recording.clock import runs
 from pyimu.recording.quality.clipping import clipped
+from pyimu.recording.quality.zeroed import least_size
 from pyimu.recording.rest import VIBRATION, seconds_of
 
 QUIET = 4
@@ -15,6 +17,9 @@ QUIET = 4
 
 DRAWN = 512
 """Seconds of white noise of one level that are drawn to know what the quietest show of it."""
+
+SHORT = 16
+"""Samples of a piece between zeros."""
 
 THIRD = 20.0
 """Power of third differences of white noise over its own: 1 + 9 + 9 + 1."""
@@ -35,9 +40,27 @@ SURE = 3.0
 
 def rest_noise(trial: Trial) -> np.ndarray:
     """Standard deviation (3,) of the white noise of the samples, in the quietest seconds."""
-    return (
-        trial.reduction.sample_std if trial.reduction is not None else white_noise(trial, trial.y)
-    )
+    if trial.reduction is not None:
+        return trial.reduction.sample_std
+    found = white_noise(trial, trial.y)
+    for k, column in enumerate(trial.y.T):
+        beside = _beside_zeros(column, trial.row_segments)
+        found[k] = found[k] if beside is None else beside
+    return found
+
+
+def _beside_zeros(values: np.ndarray, segments: list[tuple[int, int]]) -> float | None:
+    """Standard deviation of the white noise of values (n,) that are set to zero where they are
+    small, from those that are not; None of others, and without them.
+    """
+    if least_size(values) is None:
+        return None
+    inside = ((a + s, a + t) for a, b in segments for s, t in runs(values[a:b] != 0))
+    pieces = [values[k : k + SHORT] for s, t in inside for k in range(s, t - SHORT + 1, SHORT)]
+    if not pieces:
+        return None
+    third = _third_differences(np.array(pieces)[:, :, None])
+    return float(np.sqrt(_of_one_level(third)[0] / THIRD))
 
 
 def rest_density(trial: Trial) -> np.ndarray:

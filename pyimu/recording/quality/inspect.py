@@ -12,11 +12,13 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.recording.clock import Clock
+from pyimu.recording.columns import XYZ, column_names
 from pyimu.recording.quality.clipping import clipped, clipping_findings
 from pyimu.recording.quality.resolution import quantization_step
 from pyimu.recording.quality.spikes import spikes, widened
 from pyimu.recording.quality.stuck import LEAST_RUN, held_findings, stuck_findings
 from pyimu.recording.quality.wraps import wrap_findings
+from pyimu.recording.quality.zeroed import zeroed_findings
 from pyimu.recording.recording import Recording
 from pyimu.units import STANDARD_GRAVITY, ZERO_CELSIUS
 
@@ -37,21 +39,23 @@ JITTER = 0.01
 def inspect(recording: Recording) -> tuple[Finding, ...]:
     """The findings from raw gyro and accelerometer samples and their times.
 
-    ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``, ``held_samples``,
-    ``spikes``, ``quantization_step`` for each column; ``jitter``, ``gravity_down``,
-    ``force_in_g``, ``no_gravity`` and ``temperature_unit`` for the recording.
+    ``zeroed``, ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``,
+    ``held_samples``, ``spikes``, ``quantization_step`` for each column; ``jitter``,
+    ``gravity_down``, ``force_in_g``, ``no_gravity`` and ``temperature_unit`` for the recording.
     """
     names, values = _channels(recording)
+    zeroed = _zeroed(recording)
+    silent = {name for f in zeroed for name in (f.column, *(f"{f.column}_{a}" for a in XYZ))}
     columns = [
         finding
         for name, column in zip(names, values.T)
-        for finding in _column(name, np.ascontiguousarray(column))
+        for finding in _column(name, np.ascontiguousarray(column), name in silent)
     ]
     quiet = np.zeros((0, 3)) if recording.accel is None else _quietest(recording)
     force = np.median(quiet, axis=0) if len(quiet) else None
     of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_no_gravity(quiet))
     warmth = _other_temperature(recording)
-    return (*columns, *_spikes(recording), *_jitter(recording), *of_gravity, *warmth)
+    return (*zeroed, *columns, *_spikes(recording), *_jitter(recording), *of_gravity, *warmth)
 
 
 def of_reading(recording: Recording) -> tuple[Finding, ...]:
@@ -105,7 +109,19 @@ def _channels(recording: Recording) -> tuple[list[str], np.ndarray]:
     )
 
 
-def _column(name: str, values: np.ndarray) -> Iterator[Finding]:
+def _zeroed(recording: Recording) -> list[Finding]:
+    """The columns that are set to zero where they are small, or else the vectors that are."""
+    found: list[Finding] = []
+    for group in ("gyro", "accel"):
+        values = getattr(recording, group)
+        if values is not None:
+            each = zip(column_names(group), values.T)
+            own = [f for name, column in each for f in zeroed_findings(name, column)]
+            found += own or zeroed_findings(group, values)
+    return found
+
+
+def _column(name: str, values: np.ndarray, zeroed: bool) -> Iterator[Finding]:
     known = values[np.isfinite(values)]
     if len(known) < LEAST_RUN:
         return
@@ -116,7 +132,7 @@ def _column(name: str, values: np.ndarray) -> Iterator[Finding]:
     yield from wrapped
     if not wrapped:  # the edge of a word is no level at which a sensor is clipped
         yield from clipping_findings(name, values)
-    yield from stuck_findings(name, values)
+    yield from stuck_findings(name, values, zeroed)
     yield from held_findings(name, values)
     step = quantization_step(values)
     if step is not None:

@@ -89,8 +89,9 @@ def _clean_chance(repeats: np.ndarray, starts: np.ndarray, stops: np.ndarray) ->
     return (repeats[-1] - long + len(starts)) / max(len(repeats) - 1 - long, 1)
 
 
-def stuck_findings(name: str, values: np.ndarray) -> Iterator[Finding]:
-    runs = stuck_runs(values)
+def stuck_findings(name: str, values: np.ndarray, zeroed: bool = False) -> Iterator[Finding]:
+    """A finding ``stuck_samples`` of a column; zeros of one that is ``zeroed`` are none."""
+    runs = [(a, b) for a, b in stuck_runs(values) if not zeroed or values[a] != 0]
     if not runs:
         return
     at_limit = clipped(values)
