@@ -31,6 +31,7 @@ from pyimu.identification.made_with import called
 from pyimu.identification.reference.align import in_band_of
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.gravity import few, rest_trials
+from pyimu.identification.reference.of_itself import made_of_it
 from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
 from pyimu.identification.reference.turned import with_turned_force
@@ -169,6 +170,7 @@ def _investigated(
     found: dict[str, Investigation] = {}
     looks: dict[str, Look] = {}
     quality: list[Finding] = []
+    own = made_of_it([*turning[0], *turning[1]], [*logs, *others])
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
         known, given = {}, (logs, others)
         if kind == "accel":
@@ -183,7 +185,8 @@ def _investigated(
             turned = turn_trials(start.gyro, logs, others, found.get("accel"))
             trials, held = turned or (trials, held)
         if trials:
-            examine = partial(_examined, start, declared, say)
+            by_attitude = kind == "gyro" or any(map(is_differentiated, trials))
+            examine = partial(_examined, start, declared, say, own if by_attitude else "")
             looks[kind] = likelier_clock(
                 examine(trials, held),
                 lambda: examine(
@@ -207,16 +210,22 @@ def _in_bands_of(
 
 
 def _examined(
-    start: Part, declared: bool, say: Say, trials: list[Trial], held: list[Trial]
+    start: Part,
+    declared: bool,
+    say: Say,
+    own: str,
+    trials: list[Trial],
+    held: list[Trial],
 ) -> Look:
-    """What was found of one sensor in its trials."""
+    """What was found of one sensor in its trials; ``own`` says why their reference was computed
+    from it, if it was.
+    """
     kind = trials[0].kind
     free = _free(start, declared, start.sensor(kind), trials)
     trials = _shown(start, declared, free, trials)
     prior = _prior(start.sensor(kind), free)
-    seen = investigate(
-        start.sensor(kind), free, trials, held, say=say, prior=prior, unfit=misfit(trials)
-    )
+    unfit = own or misfit(trials)
+    seen = investigate(start.sensor(kind), free, trials, held, say=say, prior=prior, unfit=unfit)
     return _looked(seen, prior, _random(start, kind), say)
 
 

@@ -7,8 +7,9 @@ from scipy.spatial.transform import Rotation
 
 import pyimu
 from pyimu.identification.fit.trial import gyro_trial
-from pyimu.identification.reference.of_itself import is_of_itself
+from pyimu.identification.reference.of_itself import is_of_itself, pulled
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.file import with_reference
 
 RATE, SECONDS = 100.0, 160.0
 WHITE = np.radians(0.05)
@@ -52,3 +53,73 @@ def test_the_noise_tells_an_attitude_of_the_gyros_own(own, rests):
     closed = pyimu.close(log)
     assert (closed.verdict == "reference_unfit") == own, closed.report()
     assert ("shows the gyro's own noise" in closed.reason) == own
+
+
+GRAVITY = 9.80665
+
+
+def pushed(seed: int, made: str, gain: float = 0.3, places: bool = False) -> Recording:
+    """A phone that a hand turns and pushes by 2 m/s^2, with a filter's attitude, or a camera's."""
+    time, rate, true = hand(seed, rests=True)
+    time, rate, true = time[:8000], rate[:8000], true[:8000]
+    rng = np.random.default_rng(seed + 100)
+    push = gaussian_filter1d(rng.standard_normal(rate.shape), 20.0, axis=0)
+    push *= 2.0 / push.std()
+    gyro = rate + 0.003 + WHITE * rng.standard_normal(rate.shape)
+    force = true.inv().apply(push + [0.0, 0.0, GRAVITY]) + 0.02 * rng.standard_normal(rate.shape)
+    q = true * Rotation.from_rotvec(2e-4 * rng.standard_normal(rate.shape))
+    if made != "camera":
+        q = filtered(made, gyro - 0.0028, force, true[0], gain)
+    more = {}
+    if places:
+        place = np.cumsum(np.cumsum(push, axis=0), axis=0) / RATE**2
+        place += 1e-3 * rng.standard_normal(place.shape)
+        more = dict(zip(("ref_east", "ref_north", "ref_up"), place.T))
+    q = q.as_quat(scalar_first=True)
+    return Recording.from_arrays("phone", time=time, gyro=gyro, accel=force, ref_q=q, **more)
+
+
+def filtered(made: str, gyro, force, first: Rotation, gain: float) -> Rotation:
+    """The attitude of Mahony's filter, with an integral, or of Madgwick's step of one size."""
+    up = force / np.linalg.norm(force, axis=1)[:, None]
+    q, bias = [first], np.zeros(3)
+    for k in range(len(gyro) - 1):
+        error = np.cross(up[k], q[-1].inv().apply([0.0, 0.0, 1.0]))
+        bias += 0.1 * gain * error / RATE * (made == "integral")
+        if made == "madgwick":
+            error /= max(float(np.linalg.norm(error)), 1e-9)
+        turn = 0.5 * (gyro[k] + gyro[k + 1]) + gain * error + bias
+        q.append(q[-1] * Rotation.from_rotvec(turn / RATE))
+    return Rotation.concatenate(q)
+
+
+@pytest.mark.parametrize(
+    ("made", "gain"), [("mahony", 0.05), ("mahony", 3.0), ("integral", 0.3), ("madgwick", 0.05)]
+)
+def test_what_draws_an_attitude_towards_the_force_tells_a_filter_s(made, gain):
+    """The gain comes back: an error of a tenth would be 100 of its standard errors."""
+    log = pushed(21, made, gain)
+    found = pulled(gyro_trial(log), log)
+    assert found > 0.0
+    assert made == "madgwick" or found == pytest.approx(gain, rel=0.1)
+
+
+@pytest.mark.parametrize("seed", [31, 32, 33])
+def test_nothing_draws_the_attitude_of_a_camera(seed):
+    log = pushed(seed, "camera")
+    assert pulled(gyro_trial(log), log) == 0.0
+
+
+def test_a_filter_s_attitude_in_a_file_of_its_own_is_told():
+    log = pushed(22, "mahony")
+    slow = Recording.from_arrays("fused", time=log.time[::4], ref_q=log.ref_q[::4])
+    beside = with_reference(log, slow)
+    assert pulled(gyro_trial(beside), beside) == pytest.approx(0.3, rel=0.1)
+
+
+def test_no_sensor_is_blamed_by_a_filter_s_attitude():
+    """With positions beside it would be the accelerometer's reference, too."""
+    closed = pyimu.close(pushed(23, "mahony", places=True))
+    assert closed.verdict == "reference_unfit" and not closed.added, closed.report()
+    assert "drawn towards the accelerometer's force by 0.30 rad/s" in closed.reason
+    assert not any("fits if" in remark for remark in closed.remarks)

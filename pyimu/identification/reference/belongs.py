@@ -14,7 +14,6 @@ from pyimu.identification.reference.moving import (
     moving_pair,
     turned_onto,
 )
-from pyimu.identification.reference.of_itself import is_of_itself
 from pyimu.identification.search.belief import most
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.recording.reference.band import COHERENCE, LEAST_BAND
@@ -45,12 +44,6 @@ def misfit(trials: Iterable[Trial]) -> str:
     alone = next(filter(None, map(moves_alone, trials)), "")
     if alone:
         return alone
-    own = next(filter(is_of_itself, trials), None)
-    if own is not None:
-        return (
-            f"the attitude of {own.name} shows the gyro's own noise: it was computed from this "
-            "gyro, and tells nothing of its errors; cameras, encoders or a second unit would"
-        )
     clocked = [t for t in trials if t.clock is not None]
     for t in clocked:
         mistake = mistaken(t)
