@@ -12,7 +12,7 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.recording.columns import GROUPS, column_names
-from pyimu.recording.guess.proposal import Proposal
+from pyimu.recording.guess.guessed import Proposal
 from pyimu.recording.recording import Recording
 from pyimu.report.findings import grouped
 from pyimu.report.numbers import number, quantity

@@ -16,7 +16,8 @@ from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.split_time import with_one_time
 from pyimu.recording.formats.suffix import open_reader
-from pyimu.recording.guess.proposal import Guess, Proposal, forces, proposed
+from pyimu.recording.guess.guessed import Guess, Proposal
+from pyimu.recording.guess.proposal import forces, proposed
 from pyimu.recording.guess.writing import MapGiven, text_of
 from pyimu.recording.known import STATED, is_own, recognised
 from pyimu.recording.log import Log

@@ -4,9 +4,9 @@ phone, or a unit with a filter of its own, gives beside its samples.
 What such a one shows is what its gyro shows, noise and all, but for what gravity or a field puts
 right. Where nothing moves two instruments have nothing in common; these have the noise. And what
 such a filter turns beside the gyro, towards the accelerometer's up, follows the force however a
-body is pushed: Mahony et al. 2008, their explicit filter, w = w_gyro + k (u x v), with the direction
-u of the force and v of the vertical by the attitude. Such an attitude leans where the body is
-pushed, and an accelerometer that is judged by it seems to be wrong.
+body is pushed: Mahony et al. 2008, their explicit filter, w = w_gyro + k (u x v), with the
+direction u of the force and v of the vertical by the attitude. Such an attitude leans where the
+body is pushed, and an accelerometer that is judged by it seems to be wrong.
 """
 
 from __future__ import annotations

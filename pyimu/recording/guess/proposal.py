@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from pathlib import Path
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyimu.brief import Brief
 from pyimu.errors import UserError
 from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
 from pyimu.recording.counter import Unwrapped
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.endings import fits
+from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.names import (
     DERIVED,
     TRUTHS,
@@ -50,84 +49,6 @@ EXACT = 1e-5
 
 CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
 """Of a column of them."""
-
-CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s"), "mag": ("uT", "gauss")} | {
-    "accel": ("m/s^2", "g"),
-    "temperature": ("degC", "K"),
-    "ref_q": ("rad", "deg"),
-}
-"""Units to choose from where nothing tells."""
-
-
-@dataclass(frozen=True)
-class Guess:
-    """A column of the file and what it may be: ``target`` such as ``gyro_x``, its unit, and why.
-
-    ``unit`` is None where nobody knows; ``value`` the size of a count in it, ``sizes`` those in
-    deg/s that it may have.
-    """
-
-    cell: str
-    target: str
-    unit: str | None
-    why: str
-    value: float | None = None
-    sizes: tuple[float, ...] = ()
-
-    @property
-    def group(self) -> str:
-        return GROUP_OF[self.target]
-
-
-@dataclass(repr=False)
-class Proposal(Brief):
-    """What the columns of a file may be.
-
-    ``notes`` say what else could be meant; ``rate`` [Hz] is what the file says of itself, or
-    a map of it, where it has no times.
-    """
-
-    path: Path
-    header: tuple[str, ...]
-    guesses: list[Guess] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
-    rate: float | None = None
-
-    @property
-    def timeless(self) -> bool:
-        """Whether neither a column nor the file says when its samples were taken."""
-        return self.rate is None and "time" not in self.groups
-
-    @property
-    def open_questions(self) -> list[str]:
-        """Groups whose unit nobody knows."""
-        return list(dict.fromkeys(g.group for g in self.guesses if g.unit is None))
-
-    @property
-    def units(self) -> dict[str, str]:
-        """Groups to their units, as far as they are known."""
-        return {g.group: g.unit for g in self.guesses if g.unit is not None}
-
-    @property
-    def given_to(self) -> str:
-        """Which commands take the map, and by which option."""
-        if self.holds == "reference":
-            return "pyimu close as --reference-columns"
-        return "the other commands as --columns"
-
-    @property
-    def holds(self) -> str:
-        """What the file holds, as ``Source`` has it: a "sensor", or a "reference" alone."""
-        sensor = {"gyro", "accel"} & set(self.groups)
-        alone = not sensor and any(group.startswith("ref_") for group in self.groups)
-        return "reference" if alone else "sensor"
-
-    @property
-    def groups(self) -> list[str]:
-        return list(dict.fromkeys(g.group for g in self.guesses))
-
-    def add(self, guesses: Sequence[Guess]) -> None:
-        self.guesses += guesses
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pyimu.recording.guess.proposal import CHOICES, Guess, Proposal
+from pyimu.recording.guess.guessed import CHOICES, Guess, Proposal
 
 WIDTH = 46
 """Characters in front of a remark."""
