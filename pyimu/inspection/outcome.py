@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import Finding
-from pyimu.recording.columns import GROUPS, column_names
+from pyimu.recording.columns import ANGLES, GROUPS, column_names
 from pyimu.recording.guess.guessed import Proposal
 from pyimu.recording.recording import Recording
 from pyimu.report.findings import grouped
@@ -67,7 +67,7 @@ class Outcome:
                 ", ".join(guess.cell for guess in guesses),
                 group,
                 _unit(guesses[0]),
-                self._range(group),
+                "" if guesses[0].target in ANGLES else self._range(group),
                 guesses[0].why,
             )
             for (_, group), guesses in rows.items()

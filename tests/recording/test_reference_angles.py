@@ -1,6 +1,8 @@
 """Attitudes that files have as roll, pitch and yaw, heights that count downward, and the data sets
 that are written so."""
 
+import re
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -138,6 +140,7 @@ def test_inspect_proposes_the_angles_of_a_reference(names, unit, tmp_path):
     read = read_reference(file, column_map)
     same(read.ref_q, q)
     np.testing.assert_array_equal(read.ref_up, -where[2])
+    assert not re.search(r"ref_q .* to ", found.report())
     assert "--reference-columns" in found.column_map and "see [frame]" in found.column_map
 
 

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import pyimu
+from pyimu.errors import Finding
+from pyimu.identification.ranges import set_to_zero
 from pyimu.recording.quality.inspect import inspect
 from pyimu.recording.quality.zeroed import FALSE_ALARMS, least_size
 from pyimu.recording.recording import Recording
@@ -72,3 +74,10 @@ def test_close_names_the_zone_and_a_gyro_without_noise_at_rest_stops_nothing():
     (found,) = [a for a in closed.added if a.effect == "hard_dead_zone"]
     np.testing.assert_allclose(found.parameters["d"][0], ZONE, rtol=0.05)
     assert not any("set to zero" in remark for remark in closed.remarks)
+
+
+def test_a_zone_that_no_effect_was_named_for_is_said():
+    found = [Finding("zeroed", f"gyro_{a}", 900, {"least": ZONE}) for a in "xy"]
+    (said,) = set_to_zero(found, [("accel", "hard_dead_zone")])
+    assert said.startswith("the gyro's samples below 1.00 deg/s are set to zero")
+    assert not set_to_zero(found, [("gyro", "hard_dead_zone")])

@@ -184,7 +184,7 @@ def angle_unit(angles: np.ndarray) -> UnitGuess:
     turns = (("deg", 360.0), ("rad", 2 * np.pi))
     for unit, turn in turns:
         if np.any(np.abs(steps / turn - 1) < WRAP) and largest.max() < 1.1 * turn:
-            return UnitGuess(unit, f"an angle goes on from {turn:.4g} at 0 then, a whole turn")
+            return UnitGuess(unit, f"an angle jumps by {turn:.4g}, a whole turn")
     if largest[1] > 1.01 * np.pi / 2 or largest.max() > 1.01 * 2 * np.pi:
         return UnitGuess("deg", f"they go to {largest.max():.4g}, more than angles in rad would")
     why = f"they go to {largest.max():.3g}; in deg it would turn no further than that"
