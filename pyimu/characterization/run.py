@@ -19,6 +19,7 @@ from pyimu.characterization.noise.coefficients import Coefficient, mean_coeffici
 from pyimu.characterization.outcome import LogResult, SensorResult, Summary
 from pyimu.characterization.result import Characterization
 from pyimu.characterization.sensor import SensorAnalysis
+from pyimu.characterization.shocks import without_shocks
 from pyimu.characterization.store import Store
 from pyimu.errors import Finding, UserError
 from pyimu.model.part import Part
@@ -90,13 +91,15 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
         moving = [f for s in read.sensors.values() for f in s.motion(wrapped)]
         # Raw counts in a false unit look like motion.
         moves = bool(moving) and not any(f.kind == "counts" for f in read.findings)
+        # What moves has no rest that a shock could stand out of.
+        sensors, shocks = (read.sensors, []) if moving else without_shocks(read.sensors, wrapped)
         results = {
             kind: SensorAnalysis(name, samples, wrapped, moves, level, T0, store, say).result()
-            for kind, samples in read.sensors.items()
+            for kind, samples in sensors.items()
         }
         if not any(c.noise for r in results.values() for c in r.channels):
             raise UserError(_nothing(name, results))
-        findings = (*read.findings, *moving)
+        findings = (*read.findings, *moving, *shocks)
         shown = evidence(findings, read.sensors)
         findings = (*findings, *_warm_ups(results.values()))
         field = _magnetometer(source, moving, say)

@@ -77,6 +77,7 @@ MEANING = {
     "repeated_samples": "values that are the same as in the row before, to the last bit",
     "repeated_time": "rows with the time of the row before: the first of them counts",
     "rocks": "the body rolls and pitches; the heading is taken for what it is along the gyro",
+    "shocks": "seconds in which several axes shake at once, as of a knock: they were left out",
     "speed_axis": "the forces say that the body does not drive along x: the speed was not used",
     "speed_sign": "the forces contradict the speed's sign: it was not used",
     "speed_unit": "the forces say that the speed is of another unit: it was not used",

@@ -71,11 +71,20 @@ def _gaps(log: LogResult) -> Iterator[str]:
                 else f"the longest {s.segments_used:,} of {s.segments:,}"
             )
             yield (
-                f"{log.name}: the {SENSORS[k]} has {s.segments - 1:,} "
-                f"gap{'s' * (s.segments > 2)}. Nothing is bridged: deviations are made of "
+                f"{log.name}: the {SENSORS[k]} has {_breaks(log, s.segments - 1)}. "
+                "Nothing is bridged: deviations are made of "
                 f"{used} segments, up to {duration(s.longest * s.h)} each, and the spectrum of "
                 "all."
             )
+
+
+def _breaks(log: LogResult, count: int) -> str:
+    """``3 gaps``, or ``3 gaps and shocks`` where shocks were left out of a log."""
+    several = "s" * (count > 1)
+    if any(f.kind == "shocks" for f in log.findings):
+        lost = "gaps" if any(f.kind in ("gaps", "missing_cells") for f in log.findings) else ""
+        return f"{count:,} " + (f"{lost} and shocks" if lost else f"shock{several} left out")
+    return f"{count:,} gap{several}"
 
 
 def _floors(log: LogResult) -> Iterator[str]:
