@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
+from pyimu import Recording, ins
 from pyimu.threads import on_one_thread
 
 
@@ -32,3 +33,16 @@ def test_a_function_that_raises_gives_the_threads_back():
         with pytest.raises(ValueError, match="as asked"):
             on_one_thread(fails)()
         assert threads() == before
+
+
+def test_a_path_is_smoothed_on_one_thread():
+    """The matrices of a smoother are 15 by 15 or 27 by 27: with two threads it took four times the
+    time of the processor.
+    """
+    rng = np.random.default_rng(1)
+    gyro, accel = 1e-3 * rng.standard_normal((300, 3)), 0.02 * rng.standard_normal((300, 3))
+    time, seen = 0.01 * np.arange(300), set()
+    log = Recording.from_arrays("rest", time=time, gyro=gyro, accel=accel + [0, 0, 9.80665])
+    with threadpool_limits(limits=2, user_api="blas"):
+        ins.run(log, method="strapdown", say=lambda *_: seen.update(threads()))
+    assert seen == {1}

@@ -27,6 +27,7 @@ from pyimu.recording.log import Given, recording_of
 from pyimu.recording.quality.inspect import rate_of_part
 from pyimu.recording.recording import Recording
 from pyimu.silent import silent
+from pyimu.threads import on_one_thread
 from pyimu.units import STANDARD_GRAVITY, did_you_mean
 
 METHODS = ("paper", "strapdown", "filter", "smoother")
@@ -43,6 +44,7 @@ LIMITS = {
 """What a robot can do, as the filter has it where ``settings`` do not say another."""
 
 
+@on_one_thread
 def run(
     recording: Given,
     part: Part | str | os.PathLike | None = None,
