@@ -52,7 +52,7 @@ def without_shocks(
     seconds are loud: that is no shock, it is how the log is.
     """
     loud = [v for s in sensors.values() for v in _loud(s, ignored)]
-    knocks = [v for v in loud if len({w.name for w in loud if _near(v, w)}) >= TOGETHER]
+    knocks = _together(loud)
     seconds = len({round(v.time / SECOND) for v in knocks})
     total = max((len(s) * s.h / SECOND for s in sensors.values()), default=0.0)
     if not knocks or seconds > max(RARE * total, ONE_SHOCK):
@@ -62,9 +62,16 @@ def without_shocks(
     return {k: _cut(s, times) for k, s in sensors.items()}, findings
 
 
-def _near(one: _Loud, other: _Loud) -> bool:
-    """Whether two loud seconds may be of one knock: the seconds of two sensors begin anywhere."""
-    return abs(one.time - other.time) < SECOND
+def _together(loud: list[_Loud]) -> list[_Loud]:
+    """Those within a second of which ``TOGETHER`` columns are loud: the seconds of two sensors
+    begin anywhere.
+    """
+    loud = sorted(loud, key=lambda v: v.time)
+    times = np.array([v.time for v in loud])
+    first = np.searchsorted(times, times - SECOND, side="right")
+    stop = np.searchsorted(times, times + SECOND)
+    names = ({v.name for v in loud[a:b]} for a, b in zip(first, stop, strict=True))
+    return [v for v, at in zip(loud, names, strict=True) if len(at) >= TOGETHER]
 
 
 def _loud(samples: Samples, ignored: Container[str]) -> Iterator[_Loud]:
