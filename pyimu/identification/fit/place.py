@@ -90,7 +90,12 @@ class Place:
         return (np.cos(angle) - 1.0) * self.across + np.sin(angle) * self.forces[HEADING].T
 
     def below(self, values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
-        """What values (n, k) have below the cutoff, in each of the ``segments``."""
+        """What values (n, k) have below the cutoff, in each of the ``segments``.
+
+        Beyond a segment's ends they are mirrored, not turned about the last of them: what was
+        differentiated is mostly noise from row to row, and all that is about an end would go with
+        the noise of that one row.
+        """
         out, nyquist = np.array(values), 0.5 / float(np.median(np.diff(self.time)))
         if self.cutoff >= nyquist:
             return out
@@ -98,7 +103,7 @@ class Place:
         for a, b in segments:
             room = min(b - a - 1, round(PERIODS * nyquist / self.cutoff))
             if room > 0:
-                out[a:b] = sosfiltfilt(low, values[a:b], axis=0, padlen=room)
+                out[a:b] = sosfiltfilt(low, values[a:b], axis=0, padtype="even", padlen=room)
         return out
 
     @property
