@@ -5,7 +5,7 @@ Screen, fit the best few in full, ask the held-out data, add, and look again.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import asdict, dataclass, replace
 from types import MappingProxyType
 from typing import Any
@@ -43,6 +43,7 @@ from pyimu.identification.search.own_lag import (
 )
 from pyimu.identification.search.projected import Scatter
 from pyimu.identification.search.reference_line import without_line
+from pyimu.identification.search.remainder import left_by_form
 from pyimu.identification.search.screen import (
     PENALTY,
     Screened,
@@ -274,7 +275,7 @@ class _Search:
         instead = max(self._likelier_than(chosen.gain), 0.0)
         if self._grows(instead, instead):
             return True
-        reason = _within_form(chosen, self.steps)
+        reason = _within_form(chosen, self.steps, self.after)
         if not reason:
             chosen, reason = judged(self.tried, chosen, self.held, self.seen.gate)
         name = chosen.screened.effect
@@ -380,19 +381,24 @@ def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:
     return after, steps
 
 
-def form_error(steps: Iterable[Step]) -> float:
+def form_error(steps: Iterable[Step], stages: Collection[str] = ("dynamics", "output")) -> float:
     """Gain [nat] that the form of dynamics and output in a model may leave: it is not exact."""
-    known = [
-        s.gain
-        for s in steps
-        if CATALOGUE[s.effect].stage in ("dynamics", "output") and not s.as_sampled
-    ]
+    known = [s.gain for s in steps if CATALOGUE[s.effect].stage in stages and not s.as_sampled]
     return FORM * max(known, default=0.0)
 
 
-def _within_form(chosen: Refined, steps: list[Step]) -> str:
-    """Why a candidate may be nothing but what the form of the model's dynamics leaves."""
+def _within_form(chosen: Refined, steps: list[Step], current: Fit) -> str:
+    """Why a candidate beside the ``current`` model may be nothing but what the form of its dynamics
+    leaves: of a delay that is exact to the noise that is nothing, though the delay explains ever so
+    much.
+    """
     if chosen.gain > form_error(steps):
+        return ""
+    gain = min(
+        chosen.gain, chosen.screened.gain
+    )  # the latter by the noise that the form is seen by
+    of_output = form_error(steps, ("output",))
+    if gain > of_output and not current.is_reduced and gain > left_by_form(current):
         return ""
     return f"explains less than {FORM:.0%} of what the lag or delay does, whose form is not exact"
 
