@@ -394,9 +394,8 @@ def _within_form(chosen: Refined, steps: list[Step], current: Fit) -> str:
     """
     if chosen.gain > form_error(steps):
         return ""
-    gain = min(
-        chosen.gain, chosen.screened.gain
-    )  # the latter by the noise that the form is seen by
+    # At first look it is seen by the noise by which the form is.
+    gain = min(chosen.gain, chosen.screened.gain)
     of_output = form_error(steps, ("output",))
     if gain > of_output and not current.is_reduced and gain > left_by_form(current):
         return ""
