@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.integrate import trapezoid
+from scipy.ndimage import maximum_filter1d
 from scipy.optimize import brentq
 from scipy.special import erfcx
 
@@ -39,6 +40,14 @@ NEARLY = 0.8
 FINE = 0.25
 """Standard deviations of the noise that a step of the samples may have for their density to be seen
 within one of them."""
+
+ABOUT, BEYOND = 0.5, 4 / 3
+"""s on either side in which a sample is looked at with others, and by how much more than the
+farthest of these it may go: of a hundred of white noise that is at some three standard deviations,
+and four are beyond chance; of a line it is its amplitude."""
+
+LEAST_LEFT = 64
+"""Rows without which nothing can be said of a log."""
 
 LEAST_AT_LEVEL = 5
 """Fewer samples beyond a level do not show that there is one."""
@@ -210,25 +219,41 @@ def _beyond(
 
 
 def without_lost(fitted: Fit) -> Fit:
-    """Leave out the samples at the level.
+    """Leave out the samples at the level, and those about them that may be.
 
     They carry no noise and no slope, and would bias what is looked for next. Rows that are no
-    samples have none at it.
+    samples have none at it. A log that would have none left keeps what it had.
     """
     if fitted.is_reduced:
         return fitted
     levels, unlimited = _levels(fitted.sensor)
-    margin = np.array(
-        [4 * np.sqrt(fitted.noise[i].r) if i in fitted.noise else 0.0 for i in range(3)]
-    )
     trials = []
     for t in fitted.trials:
-        # Judged by the model, not by the noisy sample: choosing by the sample would keep one half
-        # of the noise.
+        # Judged by the model and by what is about a sample, not by the noisy sample: choosing by
+        # the sample would keep one half of the noise.
         x = predict(unlimited, reference_input(t, fitted.states[t.name]), t.segments, t.h)
-        lost = ((levels > 0) & (np.abs(x) > levels - margin)).any(axis=1)
-        trials.append(replace(t, left_out=lost if t.left_out is None else lost | t.left_out))
+        reach = np.abs(x) + _reach(t, np.clip(x, *_either_way(levels)))
+        lost = ((levels > 0) & (reach > levels)).any(axis=1)
+        fewer = replace(t, left_out=lost if t.left_out is None else lost | t.left_out)
+        trials.append(fewer if fewer.count >= LEAST_LEFT else t)
     return fit(replace(fitted, trials=tuple(trials)).with_noise())
+
+
+def _either_way(levels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The least and the largest output (3,) of a sensor that stops at levels, zero for nowhere."""
+    most = np.where(levels > 0.0, levels, np.inf)
+    return -most, most
+
+
+def _reach(trial: Trial, x: np.ndarray) -> np.ndarray:
+    """How far (n, 3) samples may go from what the model has them be, ``x`` (n, 3): as far as the
+    farthest about each, vibration that no reference shows included, and ``BEYOND`` times that.
+    """
+    about = 2 * round(ABOUT / trial.h) + 1
+    far = np.zeros_like(x)
+    for a, b in trial.segments:
+        far[a:b] = maximum_filter1d(np.abs(trial.y[a:b] - x[a:b]), about, axis=0, mode="nearest")
+    return BEYOND * far
 
 
 def unbent(before: Fit, after: Fit) -> Fit:
