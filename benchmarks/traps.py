@@ -82,8 +82,12 @@ def closed(log: Log, form: str) -> Closed:
     recordings = [
         pyimu.Recording.from_arrays(f"log{i}", **columns) for i, columns in enumerate(log.logs)
     ]
+    references = [
+        pyimu.Recording.from_arrays(f"reference{i}", **columns)
+        for i, columns in enumerate(log.references)
+    ]
     part = parse_part(log.part, "trap.toml") if form == "declared" else None
-    return pyimu.close(recordings, part=part)
+    return pyimu.close(recordings, part=part, reference=references or None)
 
 
 def blamed(log: Log, form: str, found: Closed) -> list[str]:
@@ -166,6 +170,24 @@ def names_lag(log: Log, found: Closed) -> bool:
     return bool(lags) and _near(lags[0], log.figures["lag"], 0.0)
 
 
+PLACES = "ref_east"
+"""The column of findings that are about positions."""
+
+
+def names_lag_of_places(log: Log, found: Closed) -> bool:
+    """The time constant of the positions' filter, or by what they are late, to a millisecond or a
+    tenth.
+    """
+    said = {"reference_lag": "time_constant", "positions_late": "late"}
+    of_places = [f for f in found.quality if f.kind in said and f.column == PLACES]
+    lags = [f.detail[said[f.kind]] for f in of_places]
+    return bool(lags) and _near(lags[0], log.figures["lag"], 1e-3)
+
+
+def names_smoothed_places(log: Log, found: Closed) -> bool:
+    return any(f.kind == "reference_smoothed" and f.column == PLACES for f in found.quality)
+
+
 def _by_finding(*kinds: str) -> Callable[[Log, Closed], bool]:
     return lambda log, found: _finds(found, *kinds)
 
@@ -189,6 +211,8 @@ NAMED: dict[str, Callable[[Log, Closed], bool]] = {
     "jumps": _by_finding("reference_spikes"),
     "reference_drift": _by_finding("reference_drift"),
     "smoothed": _by_finding("reference_smoothed"),
+    "lag_of_places": names_lag_of_places,
+    "smoothed_places": names_smoothed_places,
     "vibration": _by_finding("vibration"),
     "jitter": _by_finding("jitter"),
     "gaps": _by_finding("gaps"),

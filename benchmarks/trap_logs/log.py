@@ -17,6 +17,7 @@ Columns = dict[str, np.ndarray]
 class Log:
     """One case: the columns of one or several logs of one part, the part's file, and what is wrong.
 
+    ``references`` are columns of references in files of their own, one for each log, if any;
     ``cause`` names it, ``figures`` says how large it is; ``own`` are effects that the sensor truly
     has and a part that nobody declared lacks; ``late`` says that the sensor shows all motion late
     by one time, which may be its own delay.
@@ -29,6 +30,7 @@ class Log:
     figures: Mapping[str, float] = field(default_factory=dict)
     own: frozenset[str] = frozenset()
     late: bool = False
+    references: tuple[Columns, ...] = ()
 
 
 @dataclass(frozen=True)

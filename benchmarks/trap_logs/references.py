@@ -147,24 +147,24 @@ def rate_behind_low_pass(rng) -> Log:
 def attitude_behind_low_pass(rng) -> Log:
     """An attitude, each entry of its quaternion behind a low-pass of 5 to 15 Hz."""
     scene, cut_off = new_scene(rng), rng.uniform(5, 15)
-    q = _behind_low_pass(scene, lambda at: _unwrapped(scene.motion.attitude(at)), cut_off)
+    q = _behind_low_pass(scene, lambda at: unwrapped(scene.motion.attitude(at)), cut_off)
     error = rotation.from_vector(scene.reference_std * rng.standard_normal((len(q), 3)))
     q /= np.linalg.norm(q, axis=1, keepdims=True)
     columns = scene.sensed() | {"ref_q": rotation.product(q, error)}
     return scene.log(columns, "lag", figures={"lag": 1 / (2 * np.pi * cut_off)})
 
 
-def _unwrapped(q: np.ndarray) -> np.ndarray:
+def unwrapped(q: np.ndarray) -> np.ndarray:
     """Quaternions (n, 4) of the sign that the one before has."""
     turned = np.sign(np.sum(q[1:] * q[:-1], axis=1))
     return q * np.cumprod(np.append(1.0, turned))[:, None]
 
 
-def _smoother(scene: Scene) -> Callable[[np.ndarray], np.ndarray]:
+def smoother(rng, h: float) -> Callable[[np.ndarray], np.ndarray]:
     """A filter without delay, as software lays one over a recording: a moving average of 0.1 to
-    0.3 s, a Gaussian one of 0.03 to 0.08 s, or Butterworth's of 3 to 6 Hz run both ways.
+    0.3 s, a Gaussian one of 0.03 to 0.08 s, or Butterworth's of 3 to 6 Hz run both ways, of samples
+    ``h`` s apart.
     """
-    rng, h = scene.rng, scene.h
     kind = rng.integers(3)
     if kind == 0:
         rows = 2 * round(0.5 * rng.uniform(0.1, 0.3) / h) + 1
@@ -180,7 +180,7 @@ def attitude_smoothed(rng) -> Log:
     """An attitude with a camera's noise, each entry of its quaternion smoothed."""
     scene = new_scene(rng)
     error = rotation.from_vector(scene.reference_std * rng.standard_normal((len(scene.time), 3)))
-    q = _smoother(scene)(_unwrapped(rotation.product(scene.attitude(), error)))
+    q = smoother(rng, scene.h)(unwrapped(rotation.product(scene.attitude(), error)))
     columns = scene.sensed() | {"ref_q": q / np.linalg.norm(q, axis=1, keepdims=True)}
     return scene.log(columns, "smoothed")
 
@@ -189,7 +189,7 @@ def rate_smoothed(rng) -> Log:
     """The rate of a better unit, smoothed."""
     scene = new_scene(rng)
     rate = scene.motion.rate(scene.time) + 0.1 * _own_noise(scene)
-    return scene.log(scene.sensed() | {"ref_rate": _smoother(scene)(rate)}, "smoothed")
+    return scene.log(scene.sensed() | {"ref_rate": smoother(rng, scene.h)(rate)}, "smoothed")
 
 
 def drift_0_1_deg_per_min(rng) -> Log:

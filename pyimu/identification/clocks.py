@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import clock_of
 from pyimu.identification.search.forward import Investigation
+from pyimu.recording.reference.unfiltered_places import LATE
 from pyimu.recording.reference.unlagged import HIGHEST, LAG
 from pyimu.recording.reference.unsmoothed import SMOOTHED
 from pyimu.report.numbers import joined, number
@@ -38,33 +39,62 @@ def taken_out(found: Mapping[str, Investigation], heading: Heading) -> str:
     return f"{said}: taken out, and no error of the sensor{_worth(heading)}"
 
 
-def undone(findings: Iterable[Finding]) -> str:
-    """Which references lag as behind a filter, or were smoothed; nothing where none is."""
-    lags, smoothed = ([f.detail for f in findings if f.kind == kind] for kind in (LAG, SMOOTHED))
-    said = " and ".join(filter(None, (_lagging(lags), _smooth(smoothed))))
+def undone(findings: Sequence[Finding]) -> str:
+    """Which references, or positions of them, lag as behind a filter, or were smoothed, and which
+    positions are late beside attitudes; nothing where none is.
+    """
+    by_kind = {
+        (kind, what): [
+            f.detail for f in findings if f.kind == kind and PLACES.get(f.column, "") == what
+        ]
+        for what in ("", *PLACES.values())
+        for kind in SAID
+    }
+    said = " and ".join(SAID[kind](found, what) for (kind, what), found in by_kind.items() if found)
     return f"{said}: undone, and no error of the sensor" if said else ""
 
 
-def _lagging(lags: list[dict]) -> str:
-    if not lags:
-        return ""
+def _lagging(lags: list[dict], what: str) -> str:
     slowest = max(lag["time_constant"] for lag in lags)
     cut_off = f"{number(1.0 / (2.0 * np.pi * slowest))} Hz ({_time(slowest)})"
-    if len(lags) == 1:
+    if len(lags) == 1 and not what:
         who = f"the reference of {lags[0]['recording']} lags as one"
         return f"{who} behind a low-pass filter of {cut_off} does"
-    return f"{len(lags)} references lag as those behind a low-pass filter of down to {cut_off} do"
+    down_to = "down to " if len(lags) > 1 else ""
+    return f"{_of(what, lags)} lag as those behind a low-pass filter of {down_to}{cut_off} do"
 
 
-def _smooth(smoothed: list[dict]) -> str:
-    if not smoothed:
-        return ""
+def _smooth(smoothed: list[dict], what: str) -> str:
     most = max(smoothed, key=lambda s: s["seconds"])
-    below = number(most[HIGHEST])
-    by = f"as by {most['filter']} {_time(most['seconds'])} and is used below {below} Hz"
+    below, are = number(most[HIGHEST]), "are" if what else "is"
+    by = f"as by {most['filter']} {_time(most['seconds'])} and {are} used below {below} Hz"
     if len(smoothed) == 1:
-        return f"the reference of {most['recording']} was smoothed {by}"
-    return f"{len(smoothed)} references were smoothed; that of {most['recording']} {by}"
+        return f"{_of(what, smoothed)} {'were' if what else 'was'} smoothed {by}"
+    those = "those" if what else "that"
+    return f"{_of(what, smoothed)} were smoothed; {those} of {most['recording']} {by}"
+
+
+def _late(found: list[dict], what: str) -> str:
+    most = max((f["late"] for f in found), key=abs)
+    up_to, side = "up to " if len(found) > 1 else "", "late" if most > 0.0 else "early"
+    return f"{_of(what, found)} are {up_to}{_time(abs(most))} {side} beside the attitudes"
+
+
+def _of(what: str, found: list[dict]) -> str:
+    """The references of findings, or the positions of these."""
+    of = f"the {what} of " if what and len(found) == 1 else f"{what} of " if what else ""
+    return of + (
+        f"the reference of {found[0]['recording']}"
+        if len(found) == 1
+        else f"{len(found)} references"
+    )
+
+
+PLACES = {"ref_east": "positions", "ref_velocity": "velocities"}
+"""By the columns of findings, what of a reference they are about, unless its attitudes or rates."""
+
+SAID: dict[str, Callable[[list[dict], str], str]] = {LAG: _lagging, SMOOTHED: _smooth, LATE: _late}
+"""What is said of the findings of each kind."""
 
 
 def _trials(found: Mapping[str, Investigation]) -> Iterable[tuple[Investigation, Trial]]:

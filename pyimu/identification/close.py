@@ -36,7 +36,7 @@ from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
 from pyimu.identification.reference.turned import with_turned_force
 from pyimu.identification.reference.turns import turn_trials
-from pyimu.identification.reference.unfiltered import unfiltered_logs
+from pyimu.identification.reference.unfiltered import unfiltered_logs, with_sharp_places
 from pyimu.identification.result import Closed
 from pyimu.identification.search.ceiling import CEILING
 from pyimu.identification.search.forward import Investigation, investigate
@@ -150,9 +150,12 @@ def _on_time(
     logs, others = list(map(held_apart, logs)), list(map(held_apart, others))
     turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
     unfiltered = unfiltered_logs(turning, sensor, logs, others)
-    if unfiltered is None:
-        return logs, others, turning
-    return *unfiltered, aligned_trials(sensor, gyro_trial, *unfiltered, latitude)
+    if unfiltered is not None:
+        logs, others = unfiltered
+        turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
+    clocks = clocks_of(turning)
+    placed = ([with_sharp_places(r, clocks, latitude) for r in some] for some in (logs, others))
+    return *placed, turning
 
 
 def _investigated(
@@ -339,8 +342,8 @@ def _of(name: str, finding: Finding) -> Finding:
 
 
 def _of_trials(trials: Sequence[Trial]) -> list[Finding]:
-    """What making the trials found, each kind once a log."""
-    found = {(t.name, f.kind): _of(t.name, f) for t in trials for f in t.findings}
+    """What making the trials found, each kind once a column of a log."""
+    found = {(t.name, f.kind, f.column): _of(t.name, f) for t in trials for f in t.findings}
     return list(found.values())
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import HELD_OUT, Trial
+from pyimu.identification.reference.above import with_sensor_above
 from pyimu.identification.reference.align import aligned
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.clock import rebanded
@@ -92,7 +93,7 @@ def _of_place(trial: Trial) -> Trial:
     taken as the sensor's where it may be.
     """
     if is_differentiated(trial):
-        return quietened(rebanded(headed(trial)))
+        return quietened(rebanded(with_sensor_above(headed(trial))))
     return at_the_sensor(trial)
 
 

@@ -142,28 +142,33 @@ def _filter(trial: Trial, sensor: Sensor) -> Filter | None:
         kinds.append((Lag, _times(np.sqrt(2.0 * half_variance), TRIED)))
     if smooth:
         kinds += [(partial(Smoothing, k), s) for k, s in _sizes(trial, half_variance).items()]
-    return _likeliest(trial, kinds, slight=falls > -LEAST)
+    return likeliest(trial, kinds, lambda _: falls > -LEAST)
 
 
-def _likeliest(
-    trial: Trial, kinds: Sequence[tuple[Callable[..., Filter], list[float]]], slight: bool
+def likeliest(
+    trial: Trial,
+    kinds: Sequence[tuple[Callable[..., Filter], list[float]]],
+    slight: Callable[[Filter], bool],
+    judged: Callable[[Trial, Sequence[Filter]], Judge] = Judge,
+    plainest: Callable[[Judge, list[Filter]], Filter] = lambda _, alike: _lag_or_first(alike),
 ) -> Filter | None:
     """Of filters of ``kinds`` the one behind which the sensor explains the reference best, if that
-    is what the reference is behind. What is ``slight`` may be a sensor's ring.
+    is what the reference is behind: of those that say as much, best first, the ``plainest``. One
+    that is ``slight`` may be a sensor's ring.
     """
-    judge = Judge(_busiest(trial), [make(size=s) for make, sizes in kinds for s in sizes])
-    if not judge.any_short:
+    judge = judged(_busiest(trial), [make(size=s) for make, sizes in kinds for s in sizes])
+    # No filter explains more than what looks like one.
+    if not judge.any_short or judge.alike(None) < 2.0 * WANDERS:
         return None
     found = [_finest(make, sizes, judge.left) for make, sizes in kinds]
-    best = min(found, key=judge.left)
-    # Where a low-pass filter says as much, the clock's delay is explained with it.
-    alike = [f for f in found if judge.left(f) - judge.left(best) < 2.0 * WANDERS]
-    best = next((f for f in alike if isinstance(f, Lag)), best)
-    if slight and not isinstance(best, Lag) and any(map(_looks_like_a_ring, alike)):
+    found = sorted(found, key=judge.left)
+    alike = [f for f in found if judge.left(f) - judge.left(found[0]) < 2.0 * WANDERS]
+    best = plainest(judge, alike)
+    if slight(best) and not isinstance(best, Lag) and any(map(_looks_like_a_ring, alike)):
         return None
     # How far it goes, all rows say.
     sizes, make = _times(best.size, NEAR), partial(replace, best)
-    judge = Judge(trial, [make(size=s) for s in sizes])
+    judge = judged(trial, [make(size=s) for s in sizes])
     if not judge.any_short:
         return None
     best = _finest(make, sizes, judge.left)
@@ -171,15 +176,21 @@ def _likeliest(
     return best if explains and judge.alike(best) < MOSTLY * judge.alike(None) else None
 
 
+def _lag_or_first(alike: list[Filter]) -> Filter:
+    """Where a low-pass filter says as much, the clock's delay is explained with it."""
+    return next((f for f in alike if isinstance(f, Lag)), alike[0])
+
+
 def _looks_like_a_ring(one: Filter) -> bool:
     return isinstance(one, Smoothing) and KINDS[one.kind].variance > 0.0
 
 
 def _busiest(trial: Trial) -> Trial:
-    """The trial's longest segment, or of it the ``ROWS`` in which it turns most."""
+    """The trial's longest segment, or of it the ``ROWS`` in which it moves most."""
     a, b = max(trial.segments, key=lambda s: s[1] - s[0])
     if b - a > ROWS:
-        power = np.append(0.0, np.cumsum(np.sum(trial.u[a:b, OWN[trial.kind]] ** 2, axis=1)))
+        moved = trial.u[:, OWN[trial.kind]] if trial.place is None else trial.place.across
+        power = np.append(0.0, np.cumsum(np.sum(moved[a:b] ** 2, axis=1)))
         a += int(np.argmax(power[ROWS:] - power[:-ROWS]))
         b = a + ROWS
     return replace(trial, segments=[(a, b)])

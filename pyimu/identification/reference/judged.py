@@ -21,6 +21,9 @@ from pyimu.recording.reference.filters import turned_by
 SHARE = 0.5
 """Of the rows that must be left by the filters that are judged."""
 
+TOLD = 1e-3
+"""Rows by which a clock is off that is put right."""
+
 
 class Judge:
     """Of filters what each leaves of a trial's reference, by one noise.
@@ -36,7 +39,6 @@ class Judge:
         inner = [(a + self.reach, b - self.reach) for a, b in trial.segments]
         self.trial = replace(trial, segments=[(a, b) for a, b in inner if b > a])
         self.time, self.segments = band_time(self.trial), band_segments(self.trial)
-        self.shown = in_band(self.trial, trial.u[:, OWN[trial.kind]][:, list(trial.axes)])
         self.noise: list[Autoregressive] = []
         if reaches:
             self._settle([f for f in filters if self._reaches(f)])
@@ -68,9 +70,14 @@ class Judge:
 
     def _settle(self, filters: Sequence) -> None:
         """The noise: that of the filter which leaves least as it stands."""
-        rest = [self.shown - _explained(self._columns(f), self.shown) for f in filters]
+        rest = [self._rest(self._columns(f)) for f in filters]
         best = min(rest, key=lambda r: float(np.sum(np.square(r))))
         self.noise = [Autoregressive.fit([(column, self.time, self.segments)]) for column in best.T]
+
+    def _rest(self, columns: Sequence[np.ndarray]) -> np.ndarray:
+        """What the columns (m, c) of each axis leave of it (m, k)."""
+        each = zip(columns, self.shown.T, strict=True)
+        return np.stack([y - explained(x, y) for x, y in each], axis=1)
 
     def _judged(self, one) -> tuple[float, float]:
         if not self.noise or not self._reaches(one):
@@ -78,11 +85,11 @@ class Judge:
         if one not in self.known:
             columns, power, alike = self._columns(one), 0.0, 0.0
             for i, noise in enumerate(self.noise):
-                y, x, more = self._white(noise, self.shown[:, [i]], columns, self._taken[i])
-                y, more = y - _explained(x, y), more - _explained(x, more)
+                y, x, more = self._white(noise, self.shown[:, [i]], columns[i], self._taken[i])
+                y, more = y - explained(x, y), more - explained(x, more)
                 more = more / np.maximum(np.linalg.norm(more, axis=0), 1e-300)
                 power += float(np.sum(y**2))
-                alike += float(np.sum(_explained(more, y) ** 2)) - more.shape[1]
+                alike += float(np.sum(explained(more, y) ** 2)) - more.shape[1]
             self.known[one] = power, alike
         return self.known[one]
 
@@ -95,8 +102,10 @@ class Judge:
             white = white[np.convolve(bad, memory)[: len(bad)] == 0.0]
         return np.split(white, np.cumsum([c.shape[1] for c in columns])[:-1], axis=1)
 
-    def _columns(self, one) -> np.ndarray:
-        """A bias, the motion behind the filter and what a clock makes of it (m, 7)."""
+    def _columns(self, one) -> list[np.ndarray]:
+        """A bias, the motion behind the filter and what a clock makes of it (m, 7), for each axis
+        the same.
+        """
         moved = self._behind(one)
         x = self._with_slopes(moved)
         # A clock that was measured beside the filter is a little off.
@@ -104,10 +113,14 @@ class Judge:
         turn, late = found[1:4], found[4:7]
         power = float(np.sum(turn * turn))
         lead = float(np.sum(turn * late)) / power / self.whole.h if power > 0.0 else 0.0
-        if abs(lead) > 1e-3 and abs(lead) < self.reach:
+        return [self._with_slopes(self._led(moved, lead))] * len(self.trial.axes)
+
+    def _led(self, moved: np.ndarray, lead: float) -> np.ndarray:
+        """Values (n, k) so many rows earlier, as far as the rows that are judged know them."""
+        if TOLD < abs(lead) < self.reach:
             for a, b in self.whole.segments:
                 moved[a:b] = delayed(moved[a:b], -lead)
-        return self._with_slopes(moved)
+        return moved
 
     def _behind(self, one) -> np.ndarray:
         trial, moved = self.whole, np.array(self.whole.y)
@@ -116,6 +129,12 @@ class Judge:
                 turned = self._turned[a] if self._turned else None
                 moved[a:b] = one.seen(moved[a:b], trial.h, turned)
         return moved
+
+    @cached_property
+    def shown(self) -> np.ndarray:
+        """What the reference shows (m, k), in the band."""
+        trial = self.trial
+        return in_band(trial, trial.u[:, OWN[trial.kind]][:, list(trial.axes)])
 
     @cached_property
     def _turned(self) -> dict[int, np.ndarray]:
@@ -133,22 +152,28 @@ class Judge:
     @cached_property
     def _taken(self) -> list[np.ndarray]:
         """What filters take away (m, 5), of each axis."""
-        trial = self.whole
+        rate = self._slow(self.whole.y)
+        product = np.cross(rate, self._slope(rate, 1))
+        columns = [self._slope(rate, times) for times in (2, 4, 6)]
+        return self._by_axis([*columns, product, self._slope(product, 2)])
+
+    def _slow(self, values: np.ndarray) -> np.ndarray:
+        """Values (n, k) of the sensor's without what is far above the band."""
+        trial, out = self.whole, np.zeros(values.shape)
         width = 0.1 / (trial.band_hz * trial.h)
-        rate = np.zeros(trial.y.shape)
         for a, b in trial.segments:
-            rate[a:b] = gaussian_filter1d(trial.y[a:b], width, axis=0)
+            out[a:b] = gaussian_filter1d(values[a:b], width, axis=0)
+        return out
 
-        def slope(values: np.ndarray, times: int) -> np.ndarray:
-            return slope(slopes(trial, values), times - 1) if times else values
+    def _slope(self, values: np.ndarray, times: int) -> np.ndarray:
+        return self._slope(slopes(self.whole, values), times - 1) if times else values
 
-        product = np.cross(rate, slope(rate, 1))
-        columns = (*(slope(rate, times) for times in (2, 4, 6)), product, slope(product, 2))
-        return [
-            in_band(self.trial, np.stack([c[:, i] for c in columns], axis=1)) for i in trial.axes
-        ]
+    def _by_axis(self, columns: Sequence[np.ndarray]) -> list[np.ndarray]:
+        """Values (n, 3) each, in the band: those (m, c) of each axis."""
+        axes = self.whole.axes
+        return [in_band(self.trial, np.stack([c[:, i] for c in columns], axis=1)) for i in axes]
 
 
-def _explained(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def explained(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """What columns x (m, c) explain of y (m, k)."""
     return x @ np.linalg.lstsq(x, y)[0]

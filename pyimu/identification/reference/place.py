@@ -45,8 +45,9 @@ BETTER = 0.5
 """Share of what the first start leaves that another must leave: of a body that stays level the
 mounting takes any heading up."""
 
-OCTAVE = 2.0
-"""Times the band's edge above which nothing of a differentiated force is kept."""
+BEYOND = 2.0 / 0.7203
+"""Times the band's edge above which nothing of a differentiated force is kept: where the window of
+the band passes nothing any more of what the sensor shows there."""
 
 SAID = np.radians(1.0)
 """rad; a heading below is no more than how well cameras are levelled and aligned."""
@@ -152,28 +153,41 @@ def headed(trial: Trial) -> Trial:
         way = "counter-clockwise" if angle > 0.0 else "clockwise"
         turned = {"degrees": float(np.degrees(abs(angle))), "way": way}
         findings += (Finding("reference_heading", trial.kind, 1, turned),)
-    return replace(_with_force(trial, u), findings=findings)
+    return replace(with_force(trial, u), findings=findings)
 
 
 def quietened(trial: Trial) -> Trial:
-    """The trial with its force and the body's rate low-passed an octave above its band: the noise
+    """The trial with its force and the body's rate low-passed above its band: the noise
     of what is differentiated grows with the frequency, and what is not linear, as an arm's
     centripetal force, would bring it down into the band.
     """
-    place = replace(trial.place, cutoff=OCTAVE * trial.band_hz)
+    place = replace(trial.place, cutoff=BEYOND * trial.band_hz)
     u = np.array(trial.u)
     for at in (OWN[trial.kind], COLUMNS["rate"]):
         u[:, at] = place.below(u[:, at], trial.segments)
-    return _with_force(replace(trial, place=place), u)
+    return with_force(replace(trial, place=place), u)
 
 
-def _with_force(trial: Trial, u: np.ndarray) -> Trial:
+def with_force(trial: Trial, u: np.ndarray) -> Trial:
     """The trial with the force in inputs (n, N_INPUT), and what follows from it."""
     own, rate = OWN[trial.kind], own_rate(trial.kind)
     for a, b in trial.segments:
         if b - a > 1:
             u[a:b, rate] = np.gradient(u[a:b, own], trial.time[a:b], axis=0)
     return replace(trial, u=u, place=trial.place.by(u))
+
+
+def at_the_point(trial: Trial) -> np.ndarray:
+    """The force (n, 3) that the sensor shows, about where its reference force acts and in the axes
+    of that.
+    """
+    rows, place = _Rows.of(trial), trial.place
+    if rows.few:
+        return trial.y
+    found, turn = rows.found()
+    away = np.zeros(len(place.forces))
+    away[list(place.unknown)] = found
+    return trial.y @ turn.T - np.tensordot(away[:GRAVITY], place.forces[:GRAVITY], 1).T
 
 
 def is_differentiated(trial: Trial) -> bool:

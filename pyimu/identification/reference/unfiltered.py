@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from pyimu.identification.fit.trial import Trial
+from collections.abc import Mapping
+
+from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.trial import Trial, accel_trial
 from pyimu.identification.reference.behind import without_filter
+from pyimu.identification.reference.behind_places import without_filter_of_places
+from pyimu.identification.reference.place import is_differentiated
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.force import has_places
 
 
 def unfiltered_logs(
@@ -27,3 +33,19 @@ def unfiltered_logs(
         [undo[r.name](r) if r.name in undo else r for r in each] for each in (logs, others)
     )
     return fitted, apart
+
+
+def with_sharp_places(
+    log: Recording, clocks: Mapping[str, Clock], latitude: float | None
+) -> Recording:
+    """A log with places that are behind no filter; as it is where they were behind none.
+
+    ``clocks`` are those that the gyro shows, by log.
+    """
+    if log.accel is None or log.ref_force is not None or not has_places(log):
+        return log
+    trial = accel_trial(log, False, latitude)
+    if trial is None or not is_differentiated(trial):
+        return log
+    undo = without_filter_of_places(trial, log, clocks.get(log.name))
+    return log if undo is None else undo(log)

@@ -24,7 +24,8 @@ from pyimu.recording.reference.nodes import own_places
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.sampling import slope_at
 from pyimu.recording.reference.smoother import white_noise
-from pyimu.recording.reference.track import LEAST_NODES, Track, fresh
+from pyimu.recording.reference.track import LEAST_NODES, STEP_RATIO, Track, fresh
+from pyimu.recording.reference.unsmoothed import restored_up_to
 
 DEGREE = 5
 """Of the spline: the acceleration of its positions is one of the third."""
@@ -113,7 +114,7 @@ def _of(kind, values, recording, source, time, q, seen, latitude) -> Force | Non
         return None
     attitude = Rotation.from_quat(q[known], scalar_first=True)
     force[known] = attitude.inv().apply(acceleration[known] + [0.0, 0.0, gravity])
-    limit = 0.25 / max(track.period, row)
+    limit = min(0.25 / max(track.period, row), restored_up_to(recording.reference, places=True))
     arms = arm_forces(seen.rate, time)
     moved = np.column_stack([force, arms.reshape(len(time), -1)])
     band = trusted_band(time, _without_spikes(recording), moved, limit)
@@ -146,7 +147,9 @@ def _acceleration(
 
     known = fresh(values)
     at, nodes = own_places(source.time[known], values[known])
-    spread = SPIKE * white_noise(nodes)
+    # Of what was smoothed hardly any change of a step opposes the one before, noise or motion.
+    usual = np.quantile(np.linalg.norm(np.diff(nodes, 2, axis=0), axis=1), 0.9)
+    spread = max(SPIKE * white_noise(nodes), STEP_RATIO * float(usual))
     rows = np.arange(len(at))
     track = Track(at, rows, lambda n: np.diff(nodes[n], axis=0), spread)
     out = np.full((len(time), 3), np.nan)

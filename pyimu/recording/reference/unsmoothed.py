@@ -8,9 +8,10 @@ axis by axis on the rate, the product would be left and look like an effect of t
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
@@ -141,6 +142,12 @@ class Smoothing:
         known = {"filter": kind.words, "seconds": self.size, **flat}
         return {**known, HIGHEST: self.up_to}
 
+    @classmethod
+    def of_detail(cls, detail: Mapping[str, Any]) -> Smoothing:
+        """That of a finding."""
+        kind = next(name for name, kind in KINDS.items() if kind.words == detail["filter"])
+        return cls(kind, float(detail["seconds"]))
+
     @property
     def up_to(self) -> float:
         """The frequency [Hz] up to which what was smoothed can be restored."""
@@ -163,6 +170,10 @@ class Smoothing:
         for step in STEPS:
             found = found + step * self._of(smoothed - self._of(found, h), h)
         return found
+
+    def lost(self, values: np.ndarray, h: float) -> np.ndarray:
+        """What of values (n, k), ``h`` s apart, is not given back once they were smoothed."""
+        return values - self.vectors(self._of(values, h), h)
 
     def seen(self, rate: np.ndarray, h: float, turned: np.ndarray | None) -> np.ndarray:
         """What is seen of a ``rate`` (n, 3) rad/s that was smoothed, or of attitudes (n, 4) that
@@ -191,10 +202,17 @@ def unsmoothed(recording: Recording, smoothing: Smoothing) -> Recording:
     return at_log(recording, replace(sharp, findings=(*sharp.findings, found)))
 
 
-def restored_up_to(source: Recording | None) -> float:
-    """Highest frequency [Hz] at which a reference may be used, inf where nothing was undone."""
+TURNING = frozenset({"ref_rate", "ref_q"})
+"""What of a reference a rate follows from."""
+
+
+def restored_up_to(source: Recording | None, places: bool = False) -> float:
+    """Highest frequency [Hz] at which a reference may be used, inf where nothing was undone: its
+    rate, or what its ``places`` make beside it.
+    """
     findings = () if source is None else source.findings
-    return min((f.detail[HIGHEST] for f in findings if HIGHEST in f.detail), default=np.inf)
+    used = (f for f in findings if places or f.column in TURNING)
+    return min((f.detail[HIGHEST] for f in used if HIGHEST in f.detail), default=np.inf)
 
 
 def _rates(source: Recording, smoothing: Smoothing) -> Recording | None:

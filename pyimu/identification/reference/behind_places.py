@@ -1,0 +1,120 @@
+"""The filter behind which places are that a reference saw, from what the accelerometer shows.
+
+What software lays over the attitudes of a body it lays over its positions, too, or over these
+alone: the force that is made of them is damped then, and late behind a filter that works as it
+records. The clock of a reference is that which the gyro shows beside its attitudes: what positions
+lag beside these is the filter's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from pyimu.identification.fit.clock import Clock
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.reference.behind import (
+    LEAST,
+    QUICKEST,
+    SLOWEST,
+    Filter,
+    Lag,
+    likeliest,
+)
+from pyimu.identification.reference.clock import rebanded, shifted
+from pyimu.identification.reference.judged_places import TOGETHER, PlacesJudge
+from pyimu.identification.reference.moving import in_own_band
+from pyimu.identification.reference.place import headed
+from pyimu.identification.reference.track import WANDERS
+from pyimu.recording.recording import Recording, filled
+from pyimu.recording.reference.filters import low_passed
+from pyimu.recording.reference.unfiltered_places import (
+    places_on_time,
+    unlagged_places,
+    unsmoothed_places,
+)
+from pyimu.recording.reference.unsmoothed import CLEARLY, KINDS, Smoothing
+
+STEP = 2.0
+"""From cut-off to cut-off of those that are tried first."""
+
+QUICK = 16.0
+"""Times the highest cut-off of Butterworth's filters that of others may be: these damp what is
+slower by far, too, as what rings in a sensor raises it.
+"""
+
+
+@dataclass(frozen=True)
+class Late(Lag):
+    """A low-pass filter of first order with a time constant of ``size`` s, and its delay."""
+
+    size: float
+
+    def seen(self, rate: np.ndarray, h: float, turned: np.ndarray | None) -> np.ndarray:
+        """As ``Filter.seen``; what a body has ``turned`` by makes no difference."""
+        return low_passed(rate, self.size / h)
+
+
+def without_filter_of_places(
+    trial: Trial, recording: Recording, clock: Clock | None
+) -> Callable[[Recording], Recording] | None:
+    """What takes a filter out of the places of a trial's ``recording``; None where they are behind
+    none. ``clock`` is that which the gyro shows beside the attitudes.
+    """
+    if recording.gyro is None or not np.isfinite(recording.gyro).any(axis=0).all():
+        return None
+    moved = trial if clock is None else shifted(trial, clock)
+    if not moved.segments:
+        return None
+    seen = in_own_band(headed(rebanded(moved)))
+    judged = partial(PlacesJudge, rate=filled(recording.time, recording.gyro))
+    found = likeliest(
+        seen, _kinds(trial.h), lambda f: _half_variance(f) < LEAST, judged, _most_on_time
+    )
+    if found is None:
+        return _on_time(judged(seen, [TOGETHER]), trial.reference)
+    # A filter that counts each sample when it comes is early by half a sample, one that averages
+    # the last of them late by half of these.
+    known = {"kind": trial.reference, "early": judged(seen, [found]).lead(found)}
+    if isinstance(found, Lag):
+        return partial(unlagged_places, lag=found.size, **known)
+    return partial(unsmoothed_places, smoothing=found, **known)
+
+
+def _most_on_time(judge: PlacesJudge, alike: list[Filter]) -> Filter:
+    """Of filters that say as much the one with whose delay places need the least clock of their
+    own.
+    """
+    return min(alike, key=lambda one: abs(judge.lead(one)))
+
+
+def _on_time(judge: PlacesJudge, kind: str) -> Callable[[Recording], Recording] | None:
+    """What puts places right that are late, or early, and behind no filter that is seen; None where
+    they are neither.
+    """
+    if not judge.any_short or judge.left(TOGETHER) - judge.left(None) < 2.0 * WANDERS:
+        return None
+    return partial(places_on_time, kind=kind, early=judge.lead(None))
+
+
+def _kinds(h: float) -> list[tuple[Callable[..., Filter], list[float]]]:
+    """Filters with sizes to begin with, rising, by the frequencies of which ``CLEARLY`` passes."""
+
+    def sizes(clear: float, quickest: float) -> list[float]:
+        count = int(np.log(quickest / (h * SLOWEST)) / np.log(STEP)) + 1
+        return [float(clear * h / quickest * STEP**k) for k in range(count)]
+
+    late = np.sqrt(CLEARLY**-2 - 1.0) / (2.0 * np.pi)
+    smooth = [
+        (partial(Smoothing, name), sizes(kind.clear, QUICKEST * (QUICK if kind.variance else 1.0)))
+        for name, kind in KINDS.items()
+    ]
+    return [(Late, sizes(late, QUICK * QUICKEST)), *smooth]
+
+
+def _half_variance(one: Filter) -> float:
+    """By which its gain falls with the square of the frequency, in s^2."""
+    return 0.5 * one.size**2 * (KINDS[one.kind].variance if isinstance(one, Smoothing) else 1.0)
