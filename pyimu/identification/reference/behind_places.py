@@ -25,7 +25,7 @@ from pyimu.identification.reference.behind import (
     likeliest,
 )
 from pyimu.identification.reference.clock import rebanded, shifted
-from pyimu.identification.reference.judged_places import TOGETHER, PlacesJudge
+from pyimu.identification.reference.judged_places import FARTHEST, TOGETHER, PlacesJudge
 from pyimu.identification.reference.moving import in_own_band
 from pyimu.identification.reference.place import headed
 from pyimu.identification.reference.track import WANDERS
@@ -40,6 +40,10 @@ from pyimu.recording.reference.unsmoothed import CLEARLY, KINDS, Smoothing
 
 STEP = 2.0
 """From cut-off to cut-off of those that are tried first."""
+
+LEAST_EARLY = 0.5
+"""Rows by which places are moved where no filter is seen: what counts samples is late by half a
+sample at least, and less may be as well what a sensor's own parts are apart in time."""
 
 QUICK = 16.0
 """Times the highest cut-off of Butterworth's filters that of others may be: these damp what is
@@ -97,7 +101,10 @@ def _on_time(judge: PlacesJudge, kind: str) -> Callable[[Recording], Recording] 
     """
     if not judge.any_short or judge.left(TOGETHER) - judge.left(None) < 2.0 * WANDERS:
         return None
-    return partial(places_on_time, kind=kind, early=judge.lead(None))
+    early = judge.lead(None)
+    if not LEAST_EARLY * judge.whole.h < abs(early) < FARTHEST:
+        return None
+    return partial(places_on_time, kind=kind, early=early)
 
 
 def _kinds(h: float) -> list[tuple[Callable[..., Filter], list[float]]]:

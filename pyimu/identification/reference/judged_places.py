@@ -26,7 +26,8 @@ from pyimu.recording.reference.filters import turned_by
 from pyimu.recording.reference.force import arm_forces
 
 FARTHEST = 0.1
-"""s; so far places may be beside attitudes where no filter is seen."""
+"""s; so far places may be beside attitudes, as a standard deviation before anything is seen, and
+the farthest that is believed where no filter is."""
 
 
 @dataclass(frozen=True)
@@ -119,6 +120,9 @@ class PlacesJudge(Judge):
             every = np.column_stack([self.shown[:, i], late[:, i], x[:, 4 + i]])
             rest.append(every - explained(known, every))
         left = np.concatenate(rest)
+        # Where the body hardly moves no clock is seen, and none is made up.
+        unseen = np.column_stack([np.zeros(2), left[:, 0].std() / FARTHEST * np.eye(2)])
+        left = np.concatenate([left, unseen])
         return float(np.linalg.lstsq(left[:, 1:], left[:, 0])[0][0])
 
     def _turned_by(self, values: np.ndarray, back: bool = False) -> np.ndarray:
