@@ -21,6 +21,7 @@ from pyimu.identification.reference.place import (
     is_differentiated,
     quietened,
 )
+from pyimu.identification.reference.struck import as_struck
 from pyimu.identification.reference.turned import with_mounting
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
@@ -78,7 +79,9 @@ def prepared(fitted: list[Trial], apart: list[Trial], others: bool) -> Together:
     bands = [t.band_hz for t in fitted if t.band_hz is not None]
     if bands:
         band = BAND_SHARE * float(np.median(bands))
-        fitted, apart = ([replace(t, band_hz=band) for t in ts] for ts in (fitted, apart))
+        fitted, apart = (
+            [as_struck(replace(t, band_hz=band)) for t in ts] for ts in (fitted, apart)
+        )
     differentiated = filter(is_differentiated, (*fitted, *apart))
     if not all(is_borne_out(t) and not misfit([t]) for t in differentiated):
         return [], []

@@ -82,7 +82,8 @@ class Trial:
     ``noise_error`` (3,) the standard error of its power over that power, ``doubt`` whether it may
     have noise that was not drawn. ``reduction`` is how samples become rows where these are whole
     stretches of the log. ``samples`` (m, 3) are those of the reference at times of its own, where
-    it was measured itself.
+    it was measured itself. ``healed`` (n, 3) is what was taken off samples that look like spikes,
+    where there are any.
     """
 
     name: str
@@ -110,6 +111,7 @@ class Trial:
     reduction: Reduction | None = None
     place: Place | None = None
     samples: np.ndarray | None = None
+    healed: np.ndarray | None = None
 
     @cached_property
     def band(self) -> Band:
@@ -172,6 +174,7 @@ class Trial:
             u=self.u[start:stop],
             segments=inside,
             left_out=flags,
+            healed=None if self.healed is None else self.healed[start:stop],
             earlier=earlier if len(earlier) else None,
             noise=None if self.noise is None else self.noise[start:stop],
             place=None if self.place is None else self.place.part(start, stop),
@@ -404,12 +407,13 @@ def _trial(
     """
     if not axes:
         return None
-    own = y[:, list(axes)]
+    own, taken_off = y[:, list(axes)], None
     repeats, bad = repeated(own), bad_samples(own, recording.segments)
     if band_hz is not None:
         most = max(1, int(0.25 / (band_hz * recording.sample_period)) - 1)
-        y = np.array(y)
+        measured, y = y, np.array(y)
         y[:, list(axes)] = healed(recording.time, own, bad, most)
+        taken_off = np.where(repeats[:, None], 0.0, np.nan_to_num(measured - y))
         bad &= ~short_runs(bad, most)
     bad = bad.any(axis=1)
     inside = covered if band_hz is None else covered & ~bad
@@ -432,6 +436,7 @@ def _trial(
         band_hz=band_hz,
         findings=findings,
         left_out=bad,
+        healed=taken_off if taken_off is not None and taken_off.any() else None,
         **more,
     )
 
