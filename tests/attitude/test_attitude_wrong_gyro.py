@@ -10,6 +10,7 @@ from attitude_cases import attitude_after
 from scipy.spatial.transform import Rotation
 from test_attitude_headed import H, robot, turning
 from test_attitude_speed import vehicle
+from walks import walk
 
 from pyimu import Recording, attitude
 from pyimu.recording.quality.gyro_axes import gyro_findings
@@ -72,6 +73,38 @@ def test_headings_are_not_judged_by_a_gyro_that_is_wrong():
 @pytest.mark.parametrize("seed", range(3))
 def test_a_hand_with_a_right_gyro_is_left_alone(seed, push):
     assert gyro_findings(hand(seed, push)) == ()
+
+
+def foot(seed: int, **how: float) -> Recording:
+    """A sensor on a foot, with what an uncalibrated one adds."""
+    rng, own = np.random.default_rng(seed), walk(seed, **how)
+    n = len(own.time)
+    return Recording.from_arrays(
+        time=own.time,
+        gyro=own.rate + rng.normal(0, 0.01, 3) + rng.normal(0, 2e-3, (n, 3)),
+        accel=own.force * (1 + rng.normal(0, 0.01, 3)) + rng.normal(0, 0.02, (n, 3)),
+    )
+
+
+@pytest.mark.parametrize("pitch", [0.3, 0.9, 1.3])
+@pytest.mark.parametrize("seed", range(2))
+def test_a_foot_with_a_right_gyro_is_left_alone(seed, pitch):
+    """It swings forwards when its toes go down: by a mirrored pitch its forces scatter less, about
+    a mean beyond gravity.
+    """
+    assert gyro_findings(foot(seed, pitch=pitch)) == ()
+
+
+def test_of_a_foot_a_mirrored_pitch_is_named():
+    right = foot(3)
+    (found,) = gyro_findings(replace(right, gyro=right.gyro * [1, -1, 1]))
+    assert found.kind == "gyro_axes" and "y is -y" in found.detail["axes"]
+
+
+@pytest.mark.parametrize("size", [0.1, 9.80665])
+def test_a_force_of_another_size_than_gravity_tells_nothing(size):
+    right = hand(1)
+    assert gyro_findings(replace(right, accel=right.accel * size, gyro=-right.gyro)) == ()
 
 
 @pytest.mark.parametrize("matrix", [np.eye(3), np.diag([1.0, 1, -1]), np.eye(3)[[0, 2, 1]]])

@@ -8,7 +8,8 @@ from scipy.special import stdtr
 from pyimu.errors import Finding
 from pyimu.recording.readings import BY_CHANCE, READINGS, changed, likely, named
 from pyimu.recording.recording import Recording
-from pyimu.recording.turning import carried, scatter, turning_spans
+from pyimu.recording.turning import carried, turning_spans
+from pyimu.units import STANDARD_GRAVITY
 
 DEGREE = 180 / np.pi
 
@@ -18,6 +19,9 @@ radians, and the other way round."""
 
 LIKE = 2.0
 """A factor is that of a unit to this one."""
+
+SIZE_OFF = 0.5
+"""m/s^2; by which gravity has another size by an accelerometer that nobody calibrated (50 mg)."""
 
 CHANGES = np.concatenate([READINGS, [np.eye(3) / unit for unit in UNITS[1:]]])
 """(50, 3, 3), times the stated rates those of a reading."""
@@ -31,8 +35,9 @@ def gyro_findings(recording: Recording) -> tuple[Finding, ...]:
 
     ``gyro_unit`` has the ``factor`` by which its rates are too large, ``gyro_axes`` the ``axes`` as
     they would be right. Gravity tells where the forces, turned back by the gyro to where they were
-    at the start of a span, scatter clearly less than as they are: it hardly does so of a vehicle,
-    and not of a body that stays level. There a reference attitude or rate still tells the unit.
+    at the start of a span, are clearly nearer to one gravity than as they are: it hardly does so of
+    a vehicle, and not of a body that stays level. There a reference attitude or rate still tells
+    the unit.
     """
     if recording.gyro is None:
         return ()
@@ -53,22 +58,54 @@ def gyro_findings(recording: Recording) -> tuple[Finding, ...]:
 
 
 def _by_gravity(recording: Recording) -> int | None:
-    """Which of ``CHANGES`` gravity says, None where it says nothing."""
+    """Which of ``CHANGES`` gravity says, None where it says nothing.
+
+    A force of another size than gravity's is in another unit, or has none in it, and tells nothing.
+    """
     turns, force = turning_spans(recording, recording.accel)
     if not len(turns):
         return None
-    scatters = _scatters(turns, force)
-    return next(iter(likely(scatters, scatter(force), COSTS)), None)
+    size = float(np.median(np.linalg.norm(force, axis=2)))
+    if not 1 / LIKE < size / STANDARD_GRAVITY < LIKE:
+        return None
+    halves = _in_halves(force)
+    without = _off_gravity(halves.sum(axis=1) / _rows(force.shape[1]))
+    return next(iter(likely(_off_by_reading(turns, halves), without, COSTS)), None)
 
 
-def _scatters(turns: np.ndarray, force: np.ndarray) -> np.ndarray:
-    """Variance (c, m) of the forces (m, k, 3) carried along by each of the ``CHANGES``."""
+def _rows(count: int) -> np.ndarray:
+    """How many (2, 1) of the steps of a span lie in either half of it."""
+    return np.array([[count // 2], [count - count // 2]])
+
+
+def _in_halves(force: np.ndarray) -> np.ndarray:
+    """The forces (m, k, 3) as (m, k, 2, 3), either half of a span with zeros in the other."""
+    first = np.arange(force.shape[1]) < force.shape[1] // 2
+    return force[:, :, None] * np.stack([first, ~first], axis=1)[None, :, :, None]
+
+
+def _off_by_reading(turns: np.ndarray, halves: np.ndarray) -> np.ndarray:
+    """How far (c, m) the halves' mean forces carried along by each of the ``CHANGES`` are off."""
     (m, k, _), c = turns.shape, len(CHANGES)
     each = np.einsum("cij,mkj->kcmi", CHANGES, turns).reshape(k, c * m, 3)
-    same = np.broadcast_to(force.transpose(1, 0, 2)[:, None], (k, c, m, 3))
-    _, sums = carried(each, same.reshape(k, c * m, 3, 1), np.full(c * m, k))
-    mean = sums[:, :, 0].reshape(c, m, 3) / k
-    return np.mean(np.sum(force**2, axis=2), axis=1) - np.sum(mean**2, axis=2)
+    same = np.broadcast_to(halves.transpose(1, 0, 3, 2)[:, None], (k, c, m, 3, 2))
+    _, sums = carried(each, same.reshape(k, c * m, 3, 2), np.full(c * m, k))
+    return _off_gravity(sums.transpose(0, 2, 1).reshape(c, m, 2, 3) / _rows(k))
+
+
+def _off_gravity(means: np.ndarray) -> np.ndarray:
+    """Squared distance (...) of the mean forces (..., 2, 3) of the halves of spans from one vector
+    of gravity's size.
+
+    What a body is pushed averages out, as its velocity stays bounded, and is left out so. A mean
+    beyond gravity would be a speed that comes up in every span: a foot swings forwards when its
+    toes go down, and carried along by the rates of a mirrored pitch its forces scatter less than by
+    the true ones, about a mean that is too large.
+    """
+    both = means.mean(axis=-2)
+    apart = np.sum((means[..., 0, :] - both) ** 2, axis=-1)
+    off = np.abs(np.linalg.norm(both, axis=-1) - STANDARD_GRAVITY)
+    return apart + np.maximum(off - SIZE_OFF, 0) ** 2
 
 
 # By a reference

@@ -1,0 +1,66 @@
+"""Walks of a sensor on a foot in plain numpy: swings of the leg between stances."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.spatial.transform import Rotation
+
+G = 9.80665
+FINE = 4
+"""Steps of the integration in a sample."""
+
+
+@dataclass
+class Walk:
+    """What a perfect sensor on a foot measures: time (n,) s, rate (n, 3) rad/s and force (n, 3)
+    m/s^2 as means over a sample, its place (n, 3) m, and marks (n,) of stance.
+    """
+
+    time: np.ndarray
+    rate: np.ndarray
+    force: np.ndarray
+    place: np.ndarray
+    stands: np.ndarray
+
+
+def walk(
+    seed: int,
+    seconds: float = 60.0,
+    stance: float = 0.4,
+    swing: float = 0.65,
+    pitch: float = 0.9,
+    hz: float = 200.0,
+) -> Walk:
+    """Strides of 1.2 m along a wide curve, after 8 s of standing. The toes go down by ``pitch`` rad
+    as the foot leaves the ground, and up before it is set down.
+    """
+    rng = np.random.default_rng(seed)
+    t = np.arange(0.0, seconds, 1 / hz / FINE)
+    angles = np.tile([rng.uniform(-3, 3), 0.15, 0.05], (len(t), 1))
+    place, stands = np.zeros((len(t), 3)), np.ones(len(t), dtype=bool)
+    at = 8.0
+    while at < seconds - 5:
+        own = swing * (1 + 0.05 * rng.normal())
+        rows = slice(*np.searchsorted(t, [at, at + own]))
+        u = (t[rows] - at) / own
+        smooth = 10 * u**3 - 15 * u**4 + 6 * u**5
+        yaw, turn = angles[rows.start, 0], 0.05 + 0.03 * rng.normal()
+        step = 1.2 * (1 + 0.05 * rng.normal()) * np.array([np.cos(yaw), np.sin(yaw), 0])
+        place[rows.stop :] = place[rows.start] + step
+        place[rows] = place[rows.start] + smooth[:, None] * step
+        place[rows, 2] += 2 * (u * (1 - u)) ** 2
+        angles[rows.start :, 0] = yaw + turn
+        angles[rows, 0] = yaw + turn * smooth
+        angles[rows, 1] += pitch * np.sin(2 * np.pi * u) * np.sin(np.pi * u) ** 2
+        angles[rows, 2] += 0.1 * np.sin(np.pi * u) ** 2
+        stands[rows] = False
+        at += own + stance * (1 + 0.1 * rng.uniform(-1, 1))
+    world = Rotation.from_euler("ZYX", angles)
+    rate = (world[:-1].inv() * world[1:]).as_rotvec() * hz * FINE
+    force = world.apply(CubicSpline(t, place)(t, 2) + [0, 0, G], inverse=True)
+    n = len(rate) // FINE
+    mean = (v[: n * FINE].reshape(n, FINE, 3).mean(axis=1) for v in (rate, force[:-1]))
+    ends = np.arange(1, n + 1) * FINE
+    stood = stands[: n * FINE].reshape(n, FINE).all(axis=1)
+    return Walk(t[ends], *mean, place[ends], stood)
