@@ -17,6 +17,7 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
+from pyimu.ins.short_rests import between_swings
 from pyimu.recording.clock import runs
 from pyimu.units import STANDARD_GRAVITY
 
@@ -134,7 +135,8 @@ def detect(
     false_alarm: float = FALSE_ALARM,
 ) -> Detected:
     """Where the sensor rests: samples all of whose windows pass, so that the ends of a rest are
-    left out, in which a motion begins while it is still lost in noise.
+    left out, in which a motion begins while it is still lost in noise. Of short rests between
+    swings, as a foot's, the middles count.
 
     The mean rate of a rest must be the bias, as known from the rests before it and the walk since:
     a steady turn is none. The bias of the first is ``noise.bias``. The mean force must be that of
@@ -144,6 +146,7 @@ def detect(
     rows = max(LEAST_ROWS, round(window / period))
     passed = ratio(gyro, accel, noise, rows) <= threshold(rows, false_alarm)
     still = ~maximum_filter1d(~passed, rows, mode="nearest")
+    still |= between_swings(passed, gyro - noise.bias, rows, period)
     bias, at = noise.bias, float(time[0])
     variance_of_bias = noise.rate**2 / rows
     steady, before = [], None
