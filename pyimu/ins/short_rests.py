@@ -17,9 +17,7 @@ LEAST = 5
 """Short rests of a log at least: a body that swings and stops once is none that walks."""
 
 
-def between_swings(
-    passed: np.ndarray, rates: np.ndarray, rows: int, period: float
-) -> np.ndarray:
+def between_swings(passed: np.ndarray, rates: np.ndarray, rows: int, period: float) -> np.ndarray:
     """Marks (n,) of the middles of short rests, none of a log that has hardly any.
 
     ``passed`` (n,) says which windows of ``rows`` samples look still, by their middles; ``rates``

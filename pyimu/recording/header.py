@@ -80,6 +80,7 @@ class Header:
         self._given = {
             name.strip() for name, bracket, _ in (h.partition("[") for h in header) if bracket
         }
+        self._stated = {c.partition("[")[0].strip() for c in self._cells if "[" in c}
         self._ours = any(cell.partition("[")[0].strip() in UNITS for cell in self._cells)
         for position, cell in enumerate(header):
             self._add(position, cell)
@@ -137,9 +138,14 @@ class Header:
         self.units.append(self._unit(name, unit[:-1]))
 
     def _is_replaced(self, position: int, name: str, cell: str) -> bool:
-        """Whether a column's own name says no unit, and a map gives the name to another one."""
+        """Whether a column's own name says no unit, and a map gives the name to another one, or
+        says what the sensor's columns are without it: a magnetometer's, whose unit nobody knows.
+        """
         own = position < len(self._cells) and self._cells[position] == cell
-        return own and cell.strip() == name and name in self._given
+        if not own or cell.strip() != name:
+            return False
+        mapped = {name for name in self._given if name not in self._stated}
+        return name in self._given or (name in column_names("mag") and bool(mapped))
 
     def _is_said_otherwise(self, name: str) -> bool:
         """Whether a height counts upward in another column, or an attitude is a quaternion there,

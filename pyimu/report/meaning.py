@@ -8,7 +8,10 @@ MEANING = {
     "clipping": "samples at a limit of the range: the motion was larger than the sensor can show",
     "clock_times": "dates or times of day: they count from the midnight before the first",
     "coarse_stamps": "rows share stamps and come evenly: each got a time of its own by their rate",
-    "columns_left_out": "no column of a recording has such a name; --columns names those you need",
+    "columns_left_out": (
+        "no column of a recording has such a name, or it has no unit; --columns names those you "
+        "need"
+    ),
     "coning": "it turns far between two samples: a higher sample rate would show how",
     "constant_channel": "one value all the time: is the axis dead, or not connected?",
     "counter_wrapped": "the counter of the times began anew: they run on where it did",

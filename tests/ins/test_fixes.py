@@ -10,6 +10,7 @@ from scipy.stats import chi2
 
 from pyimu.errors import UserError
 from pyimu.ins import run
+from pyimu.ins.report.page import page
 
 DRIVE = replace(SHORT, vibration=0.0)
 STD = 0.05
@@ -164,6 +165,13 @@ def test_a_jump_is_weighed_down_counted_and_said(log):
     assert finding.count == 3
     assert "3 of them" in found.report() and "weighed down: a jump" in found.report()
     assert found.errors["filter"].most < 4.0
+
+
+def test_positions_that_all_fit_are_no_finding_of_the_page(log):
+    found = navigate(fixed(log))
+    (finding,) = [f for f in found.findings if f.kind == "position_fixes"]
+    assert finding.count == 0 and "correct the filter" in found.report()
+    assert "position_fixes" not in page(found)
 
 
 def test_positions_of_another_frame_are_refused(log):

@@ -170,6 +170,41 @@ def test_of_two_files_at_rest_the_unit_is_asked_for(tmp_path):
     assert "pyimu inspect" not in said
 
 
+@pytest.mark.parametrize(
+    "size, digits, unit",
+    [(48, 3, "uT"), (0.48, 5, "gauss"), (480, 2, "mgauss"), (480, 0, None), (3000, 2, None)],
+)
+def test_a_field_without_unit_is_guessed_or_left_out(size, digits, unit, tmp_path):
+    """What it is left out for, as counts of unknown size, keeps nothing else from being read."""
+    time, gyro, accel = turned()
+    field = np.round(size * accel / np.linalg.norm(accel, axis=1, keepdims=True), digits)
+    names = [f"{kind}_{a}" for kind in ("gyro", "accel", "mag") for a in "xyz"]
+    columns = [time / 1e9, *gyro.T, *accel.T, *field.T]
+    path = raw_logs.text(tmp_path / "l.csv", [",".join(["time_s", *names])], columns)
+    found = inspect(path)
+    assert found.proposals[0].units.get("mag") == unit and not found.problem
+    if unit is None:
+        assert found.recording.mag is None and "mag_x, mag_y, mag_z may be" in found.report()
+        with pytest.raises(UserError, match="column mag_x has no unit"):
+            read_recording(raw_logs.text(tmp_path / "m.csv", [OWN], columns))
+    else:
+        np.testing.assert_allclose(np.linalg.norm(found.recording.mag, axis=1), 48e-6, rtol=0.01)
+
+
+OWN = ",".join(
+    ["time [s]", *(f"gyro_{a} [rad/s]" for a in "xyz"), *(f"accel_{a} [m/s^2]" for a in "xyz")]
+    + [f"mag_{a}" for a in "xyz"]
+)
+
+
+def test_of_accelerations_without_gravity_it_is_said_that_they_tell_no_unit():
+    _, gyro, accel = turned()
+    pushed = np.random.default_rng(1).normal(size=accel.shape)
+    pushed[:600] *= 0.01
+    assert "no gravity in the accelerations" in rate_unit(gyro, pushed, 0.01).why
+    assert "does not turn enough" in rate_unit(0 * gyro + 0.1, accel, 0.01).why
+
+
 def test_a_phone_s_forces_without_gravity_are_left_out(tmp_path):
     where = raw_logs.phone(tmp_path, raw_logs.still(300))
     (where / "TotalAcceleration.csv").rename(where / "Accelerometer.csv")

@@ -38,7 +38,7 @@ def _contents(a: Outcome) -> dict[str, Any]:
         "error": _error(a) if a.errors else None,
         "consistency": consistency(a),
         "nis": _nis(a) if len(a.first_zupts) else None,
-        "quality": quality_table((a.recording.name, a.findings)),
+        "quality": quality_table((a.recording.name, [f for f in a.findings if f.count])),
         "files": Table(
             ("file", "what it is"),
             [

@@ -9,7 +9,8 @@ from pathlib import Path
 from pyimu.brief import Brief
 from pyimu.recording.columns import GROUP_OF
 
-CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s"), "mag": ("uT", "gauss")} | {
+CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s")} | {
+    "mag": ("uT", "gauss", "mgauss"),
     "accel": ("m/s^2", "g"),
     "temperature": ("degC", "K"),
     "ref_q": ("rad", "deg"),

@@ -165,12 +165,26 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
         return UnitGuess(None, why, sizes=tuple(1 / k for k in SENSITIVITIES))
     if largest > FASTEST:
         return UnitGuess("deg/s", f"{largest:.4g} rad/s would be faster than anything turns")
-    lacks = "it does not turn enough"
-    if force is None or period is None:
-        lacks = (
-            f"there is no {'accelerometer' if force is None else 'time of a known unit'} beside it"
-        )
-    return UnitGuess(None, f"rad/s or deg/s? {lacks} to tell")
+    return UnitGuess(None, f"rad/s or deg/s? {_lacking(force, period)} to tell")
+
+
+def _lacking(force: np.ndarray | None, period: float | None) -> str:
+    """Why gravity does not tell the unit of rates."""
+    if force is None:
+        return "there is no accelerometer beside it"
+    if period is None:
+        return "there is no time of a known unit beside it"
+    if not _has_gravity(force):
+        return "there is no gravity in the accelerations beside it"
+    return "it does not turn enough"
+
+
+def _has_gravity(force: np.ndarray) -> bool:
+    """Whether a force (n, 3) has some size where a body is quiet: that of a phone's linear
+    acceleration is small there beside what it is elsewhere.
+    """
+    size = np.linalg.norm(force, axis=1)
+    return (resting_size(force) or 0.0) > 0.5 * float(np.nanmedian(size))
 
 
 def angle_unit(angles: np.ndarray) -> UnitGuess:

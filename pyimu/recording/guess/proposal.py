@@ -31,6 +31,7 @@ from pyimu.recording.guess.numbers import (
     SECONDS,
     UnitGuess,
     angle_unit,
+    counts,
     force_unit,
     rate_unit,
     resting_size,
@@ -375,10 +376,13 @@ def _unit(
 
 
 def _field_unit(values: np.ndarray) -> UnitGuess:
-    """The Earth's field is 22 to 67 uT (World Magnetic Model); near magnets more or less."""
+    """The Earth's field is 22 to 67 uT (World Magnetic Model); near magnets more or less.
+
+    Whole numbers of its size in mgauss may as well be counts, a thousand of them a gauss or so.
+    """
     size = float(np.nanmedian(np.linalg.norm(values, axis=1)))
-    for unit, one in (("uT", 1.0), ("gauss", 0.01)):
-        if 20 * one < size < 70 * one:
+    for unit, one in (("uT", 1.0), ("gauss", 0.01), ("mgauss", 10.0)):
+        if 20 * one < size < 70 * one and not (unit == "mgauss" and counts(values.ravel())):
             return UnitGuess(unit, f"the field is {size:.3g} then")
     return UnitGuess(None, f"the field is {size:.3g}, in no usual unit")
 
