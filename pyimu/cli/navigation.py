@@ -40,7 +40,8 @@ Zupt = Annotated[
     option(
         "--zupt",
         "Rests: auto (column stationary, else the samples), live (as the unit finds them, without "
-        "what comes later), declared (that column), off.",
+        "what comes later), foot (auto, and the stances of a sensor on a foot), declared (that "
+        "column), off.",
     ),
 ]
 Nhc = Annotated[bool, option("--nhc", "A vehicle: its wheels slip neither sideways nor upwards.")]

@@ -14,6 +14,9 @@ from pyimu.recording.recording import Recording
 
 ENU = ("east", "north", "up")
 
+MEASURED = tuple(f"{name}_{axis}" for name in ("position", "velocity") for axis in ENU)
+"""Columns of a recording."""
+
 COURSE = 2.0
 """m; of a way, by whose direction the first heading is known where nothing tells it."""
 
@@ -248,10 +251,10 @@ def wrong_rows(found: Filtered, name: str, fixes: Fixes) -> np.ndarray:
 
 
 def check_fixes(
-    recording: Recording, fixes: Fixes | None, found: Filtered, moves: bool
+    recording: Recording, fixes: Fixes | None, found: Filtered, moves: bool, foot: bool = False
 ) -> list[Finding]:
     """What the filter's run says of the positions and velocities; ``moves`` says that the positions
-    go a way during rests.
+    go a way during rests, ``foot`` that the velocities are those of stances.
 
     Raises UserError where most of them contradict it.
     """
@@ -263,6 +266,11 @@ def check_fixes(
         wrong = wrong_rows(found, name, fixes)
         share = np.count_nonzero(wrong) / np.count_nonzero(valid)
         first = float(recording.time[np.argmax(wrong)])
+        if share > MOST_WRONG and foot and name == "velocity":
+            raise UserError(
+                f"{recording.name}: {share:.0%} of what --zupt foot takes for stances contradicts "
+                f"gyro and accelerometer, the first at {first:.6g} s; is the sensor on a foot?"
+            )
         if share > MOST_WRONG:
             raise UserError(
                 f"{recording.name}: {share:.0%} of the measured {name} contradicts gyro and "

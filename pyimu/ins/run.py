@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from pyimu.attitude.columns import latitude_of
 from pyimu.attitude.contradicted import contradicted, without
 from pyimu.block.parameters import number
@@ -17,8 +19,9 @@ from pyimu.ins.filtered import Filtered
 from pyimu.ins.integrated import integrated
 from pyimu.ins.job import Job, Start
 from pyimu.ins.known import known_part
-from pyimu.ins.measured import Told, check_fixes, fixes_of, wrong_rows
+from pyimu.ins.measured import MEASURED, Fixes, Told, check_fixes, fixes_of, wrong_rows
 from pyimu.ins.result import NavigationResult
+from pyimu.ins.stances import standing
 from pyimu.ins.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
 from pyimu.ins.track import Reference, Track, reference_of
 from pyimu.model.part import Part
@@ -91,12 +94,12 @@ def run(
     findings += [] if declared is None else rate_of_part(recording, declared.sample_rate)
     as_given, recording = recording, without(recording, wrong)
     told = Told(position_std, velocity_std, position_age, velocity_age)
-    measured = fixes_of(recording, told, limits["top_speed"]) if fixes else None
     job = _job(recording, declared, zupt, given, findings)
+    measured = _measured(job, zupt, fixes, told, limits["top_speed"])
     job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
     reference = reference_of(recording)
     found, start = job.started(heading0, reference)
-    findings += _of_fixes(job, found, start)
+    findings += _of_fixes(job, found, start, zupt)
     if nhc:
         free = replace(job, nhc=False).filtered(start)
         findings += checks.constraint(found, job.still, free)
@@ -118,7 +121,20 @@ def run(
     )
 
 
-def _of_fixes(job: Job, found: Filtered, start: Start) -> list[Finding]:
+def _measured(job: Job, zupt: str, fixes: bool, told: Told, top_speed: float) -> Fixes | None:
+    """The positions and velocities that correct the filter, a foot's stances among them."""
+    recording = job.recording
+    if not fixes:
+        recording = replace(recording, **dict.fromkeys(MEASURED))
+    if zupt == "foot":
+        bias = job.rest.rate if job.rest.seen else np.zeros(3)
+        recording = standing(recording, bias, job.gravity)
+    elif not fixes:
+        return None
+    return fixes_of(recording, told, top_speed)
+
+
+def _of_fixes(job: Job, found: Filtered, start: Start, zupt: str) -> list[Finding]:
     """What the run says of measured positions and velocities."""
     fixes, moves = job.fixes, False
     if fixes is not None and len(fixes.rows) > 1:
@@ -127,7 +143,7 @@ def _of_fixes(job: Job, found: Filtered, start: Start) -> list[Finding]:
         if wrong_rows(found, "position", fixes).any():
             free = job.filtered(start, fixes=False).track("filter")
             checks.check_not_mirrored(job.recording.name, positions, free)
-    return check_fixes(job.recording, fixes, found, moves)
+    return check_fixes(job.recording, fixes, found, moves, zupt == "foot")
 
 
 def _given(settings: Mapping[str, Any] | None) -> tuple[dict[str, Any], dict[str, float]]:
@@ -158,7 +174,7 @@ def _job(
     noise = noise_at_rest(recording, part, rest, declared is not None)
     turns: list[Finding] = []
     still, _ = stops_of(clean, noise, zupt, turns)
-    if zupt == "auto" and not still[rest.rows].any():
+    if zupt in ("auto", "foot") and not still[rest.rows].any():
         rest = replace(rest, seen=False)  # a steady drive, as the part's noise shows
     findings += [*checks.findings(recording, rest, gravity), *turns]
     updates = float(zupt != "off")

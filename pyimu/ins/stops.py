@@ -18,10 +18,10 @@ from pyimu.ins.speeds import driven
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
 
-ZUPT = ("auto", "live", "declared", "off")
+ZUPT = ("auto", "live", "foot", "declared", "off")
 """Where zero-velocity updates come from: the column ``stationary``, else the samples before and
-after; what the filter finds by itself, as the unit does, in the samples until now; that column
-alone; nowhere."""
+after; what the filter finds by itself, as the unit does, in the samples until now; as auto, and the
+stances of a sensor on a foot besides; that column alone; nowhere."""
 
 FIRST = 0.5
 """s; over which the means are taken that a part with wide tolerances may have at rest."""

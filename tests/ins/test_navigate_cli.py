@@ -102,7 +102,7 @@ def test_one_method_and_no_updates(pyimu, log):
     ("words", "said"),
     (
         (("--method", "papper"), ("papper", "did you mean paper?")),
-        (("--zupt", "maybe"), ("maybe", "auto, live, declared, off")),
+        (("--zupt", "maybe"), ("maybe", "auto, live, foot, declared, off")),
         (("--zupt", "declared"), ("stationary [1]", "--zupt auto")),
         (("--latitude", "95"), ("--latitude 95", "-90 and 90")),
         (("--top-speed", "-1"), ("top_speed",)),

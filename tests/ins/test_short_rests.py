@@ -1,14 +1,22 @@
 """The stances of a foot are rests, though each is shorter than what else counts as one; of what
-does not swing, or stops but now and then, no moment is.
+does not swing, or stops but now and then, no moment is. Of a foot that rolls over its sole
+``--zupt foot`` takes them.
 """
+
+from contextlib import nullcontext
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from walks import Walk, walk
 
 from pyimu import Recording, ins
+from pyimu.errors import UserError
 from pyimu.ins.detector import Noise, detect
+from pyimu.ins.measured import CONTRADICTED, Fixes, check_fixes
 from pyimu.ins.short_rests import LEAST, between_swings
+from pyimu.ins.stances import stances
 from pyimu.recording.clock import runs
 
 H = 0.005
@@ -42,6 +50,69 @@ def test_the_path_of_a_foot_holds_by_default():
     off = found.tracks["filter"].position[-1] - own.place[-1]
     way = np.linalg.norm(np.diff(own.place[::20], axis=0), axis=1).sum()
     assert way > 40 and np.linalg.norm(off) < 0.02 * way
+
+
+ROLL = 0.3
+"""rad/s; of a stance."""
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_foot_that_rolls_over_its_sole_has_stances(seed):
+    own = walk(seed, roll=ROLL)
+    gyro, accel = measured(own, seed)
+    assert not detect(own.time, gyro, accel, NOISE, H).still[2000:-1200].any()
+    marks = stances(gyro - NOISE.bias, accel, 9.80665, H)
+    rows = [rows for rows in runs(own.stands) if 8 < own.time[rows[0]] < 54]
+    assert all(marks[slice(*r)].mean() > 0.5 for r in rows)
+    speed = np.linalg.norm(np.gradient(own.place, H, axis=0), axis=1)
+    assert speed[marks].max() < 0.1 < speed.max()
+
+
+def test_a_stance_with_missing_samples_is_none():
+    own = walk(0)
+    gyro, accel = measured(own, 0)
+    gyro[500, 1] = accel[800, 2] = np.nan
+    marks = stances(gyro - NOISE.bias, accel, 9.80665, H)
+    assert not marks[491:510].any() and not marks[791:810].any()
+    assert marks[100:480].all() and marks[520:780].all()
+
+
+def test_the_path_of_a_foot_that_rolls_holds_where_it_is_said_to_be_one():
+    own = walk(2, roll=ROLL)
+    gyro, accel = measured(own, 2)
+    log = Recording.from_arrays(time=own.time, gyro=gyro, accel=accel)
+    plain, found = (
+        ins.run(log, method="filter", zupt=zupt, heading0=walk_heading(own))
+        for zupt in ("auto", "foot")
+    )
+    assert "on a foot, --zupt foot takes" in plain.report().splitlines()[1]
+    assert "--zupt foot" not in found.report()
+    off = [np.linalg.norm(r.tracks["filter"].position[-1] - own.place[-1]) for r in (found, plain)]
+    assert off[0] < 0.02 * 55 < off[1]
+    assert "moments of stance correct the filter" in found.report()
+
+
+def test_a_log_with_velocities_of_its_own_is_told_so():
+    own = walk(2, seconds=20.0)
+    log = Recording.from_arrays(time=own.time, gyro=own.rate, accel=own.force)
+    zero = np.zeros(len(own.time))
+    measured_too = replace(log, velocity_east=zero, velocity_north=zero, velocity_std=zero + 1)
+    with pytest.raises(UserError, match="the log has measured ones"):
+        ins.run(measured_too, method="filter", zupt="foot")
+    assert ins.run(measured_too, method="filter", zupt="foot", fixes=False).fixes is not None
+
+
+def test_stances_of_which_most_contradict_the_filter_are_refused():
+    """As those of a car, that drives on and looks like one."""
+    log = Recording.from_arrays(time=H * np.arange(100), gyro=np.zeros((100, 3)))
+    none = np.zeros(0, dtype=int), np.zeros((0, 3)), 0.0
+    fixes = Fixes({"velocity_valid": np.ones(100)}, *none)
+    for wrong, refused in ((80, True), (20, False)):
+        status = CONTRADICTED["velocity"] * (np.arange(100) < wrong)
+        found = SimpleNamespace(scalar=lambda _, status=status: status)
+        with pytest.raises(UserError, match="on a foot") if refused else nullcontext():
+            (said,) = check_fixes(log, fixes, found, moves=False, foot=True)
+            assert said.count == wrong
 
 
 def walk_heading(own: Walk) -> float:

@@ -31,9 +31,11 @@ def walk(
     swing: float = 0.65,
     pitch: float = 0.9,
     hz: float = 200.0,
+    roll: float = 0.0,
 ) -> Walk:
     """Strides of 1.2 m along a wide curve, after 8 s of standing. The toes go down by ``pitch`` rad
-    as the foot leaves the ground, and up before it is set down.
+    as the foot leaves the ground, and up before it is set down. In a stance it turns by rates of up
+    to ``roll`` rad/s.
     """
     rng = np.random.default_rng(seed)
     t = np.arange(0.0, seconds, 1 / hz / FINE)
@@ -55,7 +57,11 @@ def walk(
         angles[rows, 1] += pitch * np.sin(2 * np.pi * u) * np.sin(np.pi * u) ** 2
         angles[rows, 2] += 0.1 * np.sin(np.pi * u) ** 2
         stands[rows] = False
-        at += own + stance * (1 + 0.1 * rng.uniform(-1, 1))
+        at += own
+        own = stance * (1 + 0.1 * rng.uniform(-1, 1))
+        rows = slice(*np.searchsorted(t, [at, at + own]))
+        angles[rows, 1] += roll * own / np.pi * np.sin(np.pi * (t[rows] - at) / own) ** 2
+        at += own
     world = Rotation.from_euler("ZYX", angles)
     rate = (world[:-1].inv() * world[1:]).as_rotvec() * hz * FINE
     force = world.apply(CubicSpline(t, place)(t, 2) + [0, 0, G], inverse=True)

@@ -13,6 +13,7 @@ from pyimu.errors import Finding
 from pyimu.ins.filter.variables import STATUS_NAMES
 from pyimu.ins.measured import CONTRADICTED
 from pyimu.ins.outcome import Outcome
+from pyimu.ins.short_rests import SWUNG
 from pyimu.report.findings import in_line
 from pyimu.report.numbers import number, quantity
 
@@ -29,6 +30,10 @@ MOSTLY = 0.5
 LASTS = 0.1
 """Share of the samples of a stop from which on it may be none: of one the first few contradict the
 estimate at most, and the others follow them."""
+
+LONG, OFTEN = 5.0, 0.8
+"""s without a rest are longer than any step; a leg swings in a good part of the time, so that this
+quantile of the rates is that of a swing."""
 
 BY_CHANCE = 1e-4
 """Probability that velocities are called too far off where the standard deviations are right."""
@@ -240,14 +245,25 @@ def _rests(a: Outcome) -> str:
     )
     if not a.later_stops:
         text += ": after the start there is nothing to update with"
-    return text
+    return text + _of_feet(a)
+
+
+def _of_feet(a: Outcome) -> str:
+    """What a sensor on a foot needs, of a log without rests for long whose body swings."""
+    size = np.linalg.norm(np.nan_to_num(a.recording.gyro), axis=1)
+    swings = float(np.quantile(size, OFTEN)) > SWUNG
+    if a.zupt not in ("auto", "live") or _declared(a) or a.longest_leg < LONG or not swings:
+        return ""
+    return "; of a sensor on a foot, --zupt foot takes its stances as well"
 
 
 def _fixes(a: Outcome) -> Iterator[str]:
     for f in a.findings:
         if f.kind not in FIXES:
             continue
-        text = f"{f.detail['of']:,} measured {f.column} samples correct the filter"
+        stands = a.zupt == "foot" and f.column == "velocity"
+        what = "moments of stance" if stands else f"measured {f.column} samples"
+        text = f"{f.detail['of']:,} {what} correct the filter"
         nis = a.mean_nis(f"{f.column}_nis")
         if nis is not None:
             text += f", mean NIS {number(nis)}"

@@ -1,0 +1,72 @@
+"""The stances of a sensor on a foot: between two swings it hardly moves, but rolls over the sole.
+
+The generalised likelihood ratio of Skog et al. 2010 (Zero-velocity detection, their SHOE): over a
+window the force has gravity's size and one direction, and nothing turns. Their noise is not the
+sensor's but what a foot does while it stands: of a measured walk (Voisard's reference set of gait,
+a sensor on each foot) the rate in a stance is 0.1 to 0.6 rad/s, and the force within 0.5 m/s^2 of
+gravity, while a swing has up to 10 rad/s and 50 m/s^2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
+from pyimu.errors import UserError
+from pyimu.recording.clock import runs
+from pyimu.recording.recording import Recording
+
+WINDOW = 0.1
+"""s; a stance is two of them at least."""
+
+RATE, FORCE = 0.6, 2.0
+"""rad/s and m/s^2; root mean squares over a window, either of which alone ends a stance."""
+
+STD = 0.05
+"""m/s; of the velocity, as a sensor some 0.1 m above what a foot rolls over moves. Assumed."""
+
+
+def standing(recording: Recording, bias: np.ndarray, gravity: float) -> Recording:
+    """The recording with a measured velocity of 0 in each ``WINDOW`` of a stance, to ``STD``.
+
+    The gyro's ``bias`` (3,) is in rad/s, ``gravity`` in m/s^2. It is no rest, whose rate is the
+    bias. Raises UserError for a log that has measured velocities of its own.
+    """
+    if recording.velocity_east is not None or recording.velocity_north is not None:
+        raise UserError(
+            f"{recording.name}: --zupt foot makes velocities of 0 of the stances, and the log has "
+            "measured ones; another --zupt takes these, --no-fixes leaves them out"
+        )
+    period, zero = recording.sample_period, np.full(len(recording), np.nan)
+    every = max(1, round(WINDOW / period))
+    for start, stop in runs(stances(recording.gyro - bias, recording.accel, gravity, period)):
+        zero[start + (stop - start) % every // 2 : stop : every] = 0.0
+    return replace(
+        recording,
+        velocity_east=zero,
+        velocity_north=zero,
+        velocity_up=zero,
+        velocity_std=np.full(len(recording), STD),
+    )
+
+
+def stances(rates: np.ndarray, force: np.ndarray, gravity: float, period: float) -> np.ndarray:
+    """Marks (n,) of stance by ``rates`` (n, 3) rad/s without bias and ``force`` (n, 3) m/s^2.
+
+    A window's sum of |f - g u|^2, with u the direction of its mean force, is that of |f|^2 + g^2
+    less 2 g times the size of the mean force, each by the number of its samples.
+    """
+    rows = max(3, round(WINDOW / period))
+    known = np.isfinite(rates).all(axis=1) & np.isfinite(force).all(axis=1)
+    rates, force = np.nan_to_num(rates), np.nan_to_num(force)
+
+    def mean(values: np.ndarray) -> np.ndarray:
+        return uniform_filter1d(values, rows, axis=0, mode="nearest")
+
+    pushed = mean(np.sum(force**2, axis=1)) + gravity**2
+    pushed = pushed - 2 * gravity * np.linalg.norm(mean(force), axis=1)
+    turned = mean(np.sum(rates**2, axis=1))
+    whole = mean(known.astype(float)) > 1 - 0.5 / rows
+    return whole & (pushed / FORCE**2 + turned / RATE**2 < 1)
