@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from raw_logs import repoimu
+from walks import walk
 
 from pyimu.recording.recording import Recording
 from pyimu.rover.indoor_runs import Assumptions, one_run
@@ -61,6 +62,16 @@ def still(rows: int = ROWS, seed: int = 3, rate: float = 100.0) -> Recording:
     gyro, force = 2e-3 * rng.standard_normal((rows, 3)), 0.01 * rng.standard_normal((rows, 3))
     return Recording.from_arrays(
         time=np.arange(rows) / rate, gyro=gyro, accel=force + [0.0, 0.0, 9.80665]
+    )
+
+
+def walked() -> Recording:
+    """A log of a sensor on a foot."""
+    own, rng = walk(0, seconds=20.0), np.random.default_rng(0)
+    return Recording.from_arrays(
+        time=own.time,
+        gyro=own.rate + 2e-3 * rng.standard_normal(own.rate.shape),
+        accel=own.force + 0.02 * rng.standard_normal(own.force.shape),
     )
 
 
@@ -176,6 +187,7 @@ FILES: dict[str, Maker] = {
     "angles.csv": angles,
     "angles.toml": text(ANGLES),
     "square.csv": written(square),
+    "walk.csv": written(walked),
     "tstick07.csv.gz": from_repoimu,
     "broad11.csv.gz": written(driven),
     "morpinet_rccar_n.csv.gz": written(upside_down),
