@@ -2,9 +2,9 @@
 
 The generalised likelihood ratio of Skog et al. 2010 (Zero-velocity detection, their SHOE): over a
 window the force has gravity's size and one direction, and nothing turns. Their noise is not the
-sensor's but what a foot does while it stands: of a measured walk (Voisard's reference set of gait,
-a sensor on each foot) the rate in a stance is 0.1 to 0.6 rad/s, and the force within 0.5 m/s^2 of
-gravity, while a swing has up to 10 rad/s and 50 m/s^2.
+sensor's but what a foot does while it stands: in two stances of one measured walk (Voisard's
+reference set of gait, file 12-1_rf) the rate is 0.1 to 0.8 rad/s, and the size of the force within
+0.6 m/s^2 of gravity, while the swing beside them has 10 rad/s and 50 m/s^2.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ WINDOW = 0.1
 """s; a stance is two of them at least."""
 
 RATE, FORCE = 0.6, 2.0
-"""rad/s and m/s^2; root mean squares over a window, either of which alone ends a stance."""
+"""rad/s and m/s^2; root mean squares over a window, either of which alone ends a stance. Chosen by
+these two stances."""
 
 STD = 0.05
 """m/s; of the velocity, as a sensor some 0.1 m above what a foot rolls over moves. Assumed."""
