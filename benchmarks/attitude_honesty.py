@@ -51,6 +51,9 @@ LOW, HIGH = 0.8, 1.3
 
 SOURCES = [Path(pyimu.__file__).parent / "attitude", Path(__file__).parent / "drives"]
 BY_NAME = {c.name: c for c in CASES}
+EXACT = {"rate_noise": 0.0, "axes_std": 0.0}
+"""Settings for sensors that have no errors but those of their part."""
+
 DEFINED = {"undeclared clip", "an axis sticks"}
 """Cases with errors that nobody declared."""
 
@@ -148,7 +151,7 @@ def estimated(log: Log, smooth: bool):
             f'[gyro.rate_random_walk]\nK = {{value = {K}, unit = "rad/s/sqrt(s)"}}\n'
             f'[accel.angle_random_walk]\nN = {{value = {N_ACCEL}, unit = "m/s/sqrt(s)"}}\n'
         )
-        told = log.told | {"settings": {"rate_noise": 0.0} | log.told.get("settings", {})}
+        told = log.told | {"settings": EXACT | log.told.get("settings", {})}
         return run(recording, path, smooth=smooth, **told)
 
 

@@ -36,6 +36,12 @@ MPU-6050's is allowed +-3 % at 25 degC and 2 % over temperature (product specifi
 PS-MPU-6000A-00 rev. 3.4, section 6.1), each evenly: together 2.1 %. Other consumer parts have the
 same +-3 %."""
 
+NOMINAL_AXES_STD = 0.02
+"""rad; the setting ``axes_std`` of unknown sensors: a bias of the accelerometer of 20 mg, or axes
+that are off by a degree. The MPU-6050's are allowed +-2 % of another axis, evenly 0.012 for either
+triad, and +-50 mg before it is calibrated (PS-MPU-6000A-00 rev. 3.4, sections 6.1 and 6.2). Between
+0.01 and 0.03 it makes little difference."""
+
 LEAST_WARMING = 1.0
 """s; in less no part warms, what changes is noise of its thermometer."""
 
@@ -166,6 +172,15 @@ def scale_std(part: Part | None) -> float:
     are not have a tolerance in their data sheets.
     """
     return NOMINAL_SCALE_STD if part is None else 0.0
+
+
+def axes_std(part: Part | None) -> float:
+    """rad; the setting ``axes_std`` for a part without tolerances, or for an unknown one.
+
+    Nobody measures it: to the accelerometer its bias is a tilt, and each triad has axes of its own.
+    """
+    unknown = part is None or (of_a_sensor(part) and not part.tolerances)
+    return NOMINAL_AXES_STD if unknown else 0.0
 
 
 def latitude_of(recording: Recording, latitude: float | None) -> float:

@@ -11,7 +11,14 @@ import numpy as np
 
 from pyimu.attitude.alignment import BIAS_STD, MagneticNorth, Yaw, initial_values, initial_yaw
 from pyimu.attitude.calibration import MagnetometerCalibration
-from pyimu.attitude.columns import latitude_of, rate_noise, recorded_age, scale_std, warmer
+from pyimu.attitude.columns import (
+    axes_std,
+    latitude_of,
+    rate_noise,
+    recorded_age,
+    scale_std,
+    warmer,
+)
 from pyimu.attitude.driven import speed_share
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
@@ -285,8 +292,9 @@ def _of_the_log(log: Prepared) -> dict[str, float]:
 def _of_the_part(recording: Recording, known: Part, declared: Part | None) -> dict[str, float]:
     """The settings that follow from what is known of the sensors, and from their tolerances."""
     values = start_values(known, warmer(recording, known))
-    for name, own in (("rate_noise", rate_noise(declared)), ("scale_std", scale_std(declared))):
-        values[name] = float(np.hypot(own, values.get(name, 0.0)))
+    for setting in (rate_noise, scale_std, axes_std):
+        name = setting.__name__
+        values[name] = float(np.hypot(setting(declared), values.get(name, 0.0)))
     return values
 
 

@@ -21,12 +21,14 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.attitude import attitude_ukf, run
+from pyimu.attitude.columns import NOMINAL_AXES_STD
 from pyimu.attitude.contradicted import believed
 from pyimu.attitude.driven import speed_findings, speed_share
 from pyimu.attitude.filter.passed import Passed
 from pyimu.attitude.filter.sigma_point_filter import sigma_point_filter
 from pyimu.attitude.filter.ukf import recorded_ukf
 from pyimu.attitude.rest import find_rest
+from pyimu.model.part_file import parse_part
 from pyimu.recording.recording import Recording
 
 STD0 = np.array([0.02, 0.02, 0.02, 0.005, 0.005, 0.005])
@@ -67,7 +69,7 @@ def numbers(expression: ca.SX) -> np.ndarray:
     return np.array(ca.evalf(ca.densify(expression)))
 
 
-def filtered(block, world: Drive, speed, seed: int, told=True, until=ROWS, **settings):
+def filtered(block, world: Drive, speed, seed: int, told=True, until=ROWS, every=EVERY, **settings):
     """Outputs, final state and the true bias of a draw, with an initial error of ``STD0``."""
     rng = np.random.default_rng(seed)
     first = STD0 * rng.standard_normal(6)
@@ -75,7 +77,7 @@ def filtered(block, world: Drive, speed, seed: int, told=True, until=ROWS, **set
     q0 = Rotation.from_rotvec(first[:3]).inv().as_quat(scalar_first=True)
     n = len(gyro)
     seen = speed + SPEED_STD * rng.standard_normal(n)
-    valid = (np.arange(n) % EVERY == 0) & told & (np.arange(n) < until)
+    valid = (np.arange(n) % every == 0) & told & (np.arange(n) < until)
     u = inputs(
         n, gyro=gyro, accel=accel, speed=seen, speed_variance=SPEED_STD**2, speed_valid=valid
     )
@@ -297,16 +299,79 @@ def test_a_speed_that_is_off_by_a_share_does_not_turn_the_heading(block, share):
     deviations at every second; with a speed that is taken for exact the heading is not.
     """
     world, speed = vehicle()
+    given = block, world, (1 + share) * speed, 7
+    assert beyond(*given, speed_tolerance=abs(share)) < 4 < beyond(*given)
 
-    def beyond(**settings) -> float:
-        y, _, bias = filtered(block, world, (1 + share) * speed, 7, **settings)
-        turned = error(output(block, y, "q"), world.attitude)[::100]
-        up = world.attitude.apply([0, 0, 1], inverse=True)[::100]
-        off = np.sum(turned * up, axis=1) / output(block, y, "heading_std")[::100]
-        biased = (output(block, y, "gyro_bias") - bias)[::100] / output(block, y, "std")[::100, 3:]
-        return float(max(np.abs(off).max(), np.abs(biased).max()))
 
-    assert beyond(speed_tolerance=abs(share)) < 4 < beyond()
+def beyond(block, world: Drive, speed, seed: int, **settings) -> float:
+    """By how many standard deviations heading or bias are off at most, of every second."""
+    y, _, bias = filtered(block, world, speed, seed, **settings)
+    turned = error(output(block, y, "q"), world.attitude)[::100]
+    up = world.attitude.apply([0, 0, 1], inverse=True)[::100]
+    off = np.sum(turned * up, axis=1) / output(block, y, "heading_std")[::100]
+    biased = (output(block, y, "gyro_bias") - bias)[::100] / output(block, y, "std")[::100, 3:]
+    return float(max(np.abs(off).max(), np.abs(biased).max()))
+
+
+def askew(world: Drive, force=(0.0, 0.0), axis=(0.0, 0.0)) -> Drive:
+    """The drive with a bias ``force`` (2,) m/s^2 of the accelerometer, along and across, and a gyro
+    that leans by ``axis`` (2,) rad.
+    """
+    inertial = world.inertial + np.cross(world.inertial, [*axis, 0])
+    return replace(world, force=world.force + [*force, 0], inertial=inertial)
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("off", [{"force": (-0.1, 0.1)}, {"axis": (0.01, -0.01)}], ids=str)
+def test_what_turns_with_a_driven_body_is_no_bias_of_its_gyro(block, off, seed):
+    """A bias of the accelerometer and axes that are off show from one turn to the next, and a
+    bias of the gyro would explain them as well. Told of them the filter is as sure as it is right.
+    """
+    world, speed = vehicle()
+    given = block, askew(world, **off), speed, seed
+    assert beyond(*given, slip_std=0.1, axes_std=0.01) < 4 < beyond(*given, slip_std=0.1)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_slip_upwards_that_lasts_is_no_bias_of_the_gyro(block, seed):
+    """A car moves on its springs for seconds, with a speed at each sample."""
+    world, speed = vehicle()
+    phase, zero = 2 * np.pi * H * np.arange(1, ROWS + 1) / 7, np.zeros(ROWS)
+    upwards = np.column_stack([zero, zero, 0.15 * np.sin(phase)])
+    change = np.column_stack([zero, zero, 0.15 * 2 * np.pi / 7 * np.cos(phase)])
+    sways = replace(world, force=world.force + change + np.cross(world.rate, upwards))
+    assert beyond(block, sways, speed, seed, every=1, slip_std=0.1, axes_std=0.02) < 4
+
+
+def test_without_errors_that_turn_along_the_turns_show_the_bias_better(block):
+    """What the filter is told of them costs it: it does not take what it may not know."""
+    world, speed = vehicle(3000)
+    exact, told = (
+        output(block, filtered(block, world, speed, 1, axes_std=v)[0], "heading_std")[-1]
+        for v in (0.0, 0.02)
+    )
+    assert exact < told
+
+
+PART = """name = "measured"
+sample_rate = {value = 100.0, unit = "Hz"}
+[gyro.angle_random_walk]
+N = {value = 1e-4, unit = "rad/sqrt(s)", source = "a log at rest"}
+"""
+ALLOWED = """[tolerance.accel.turn_on_bias]
+b0 = {value = 30.0, unit = "mg", distribution = "normal", source = "a data sheet"}
+[tolerance.gyro.misalignment]
+m = {value = 0.04, unit = "rad", distribution = "normal", source = "a data sheet"}
+"""
+
+
+def test_sensors_are_as_askew_as_their_part_says_or_as_unknown_ones():
+    """A part that was measured at rest says nothing of it; one of a program has no such error."""
+    world, speed = vehicle(1000)
+    recording = log(world, speed)
+    parts = None, parse_part(PART, "part.toml"), part(), parse_part(PART + ALLOWED, "part.toml")
+    found = [run(recording, p).parameters["axes_std"] for p in parts]
+    assert found == pytest.approx([NOMINAL_AXES_STD, NOMINAL_AXES_STD, 0, 0.05])
 
 
 def test_what_accelerates_a_body_of_known_speed_is_in_its_force():

@@ -258,15 +258,17 @@ def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push
     lost_for = ca.fmin(ca.fmax(MEAN_TIME - memory.mean.span, 0), at["motion_time"])
     lost = memory.mean.scatter * (1 + 2 * lost_for * reciprocal(h))
     drift = (1 - resting) * DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
-    unknown = h**2 * declared + drift
+    unknown, axes_std = h**2 * declared + drift, 0.0
     if sample.driven is not False:
         off = 2 * PUSH_TIME * h * (at["speed_tolerance"] * _acceleration(memory)) ** 2
         unknown = (1 - sample.driven) * unknown + sample.driven * off
+        axes_std = sample.driven * at["axes_std"]
     return Push(
         where(valid, h * sample.force),
         where(valid, h * memory.size.size),
         h**2 * where(valid, white, lost) + unknown,
         sample.driven,
+        axes_std,
     )
 
 

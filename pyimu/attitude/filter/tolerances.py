@@ -37,6 +37,7 @@ def start_values(part: Part, warmer: float = 0.0) -> dict[str, float]:
         "accel_bias_std": accel_bias_std(part, warmer),
         "rate_noise": rate_share(part, warmer) * TURN_TIME**0.5,
         "scale_std": scale_std(part, warmer),
+        "axes_std": axes_std(part, warmer),
         "bias_noise": float(np.sqrt(np.mean(_by_force(part) ** 2) * TURN_TIME)),
     }
 
@@ -102,6 +103,15 @@ def rate_share(part: Part, warmer: float = 0.0) -> float:
 def scale_std(part: Part, warmer: float = 0.0) -> float:
     """Standard deviation, among specimens, of the gyro's scale factor; the mean of its axes."""
     return float(np.sqrt(np.mean(_scale(part, "gyro", warmer) ** 2)))
+
+
+def axes_std(part: Part, warmer: float = 0.0) -> float:
+    """Standard deviation in rad, among specimens, of the angle about a horizontal axis between the
+    vertical of an accelerometer at rest and the axis about which the gyro says that it turns.
+    """
+    others = _std(part, "gyro", *MISALIGNED, shape=(3, 3))
+    tilted = accel_bias_std(part, warmer) / STANDARD_GRAVITY
+    return float(np.hypot(tilted, np.sqrt(np.sum(others**2) / 6)))
 
 
 TURN_ON, THERMAL = ("turn_on_bias", "b0"), ("thermal_bias", "kT")

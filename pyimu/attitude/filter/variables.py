@@ -275,6 +275,15 @@ SETTINGS = (
         0.0,
     ),
     _setting(
+        "axes_std",
+        "rad",
+        "standard deviation of the angle, about each axis, between the vertical of the "
+        "accelerometer and the axis about which the gyro says that a body turns whose speed is "
+        "given: a bias of the accelerometer, axes of either. It turns with the body, and nothing "
+        "is learnt of it",
+        0.0,
+    ),
+    _setting(
         "bias_noise",
         "1/sqrt(s)",
         "root density of the walk of the bias over the rate: a gyro that feels forces has another "

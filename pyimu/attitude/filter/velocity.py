@@ -73,13 +73,14 @@ class Push:
 
     ``change`` (3,) m/s is force times period, ``gravity`` in m/s that of gravity, both zero without
     a force; ``variance`` (3,) (m/s)^2 is added. ``driven`` says that the velocity is that of a
-    speed.
+    speed; ``axes_std`` rad is then the setting.
     """
 
     change: ca.SX
     gravity: ca.SX
     variance: ca.SX
     driven: ca.SX | bool = False
+    axes_std: ca.SX | float = 0.0
 
     def carried(self, velocity):
         """The ``velocity`` (3,) m/s where it is that of a speed, else zero."""
@@ -184,15 +185,24 @@ def rescaled(before: Estimate, q, own, leak, rate, scale_std, push: Push):
 
     The ``rate`` (3,) rad/s turns the body by the share ``scale_std`` of it too far, about each
     axis, as a bias of that size does. In a turn that goes on this grows as the angle, and a turn
-    back takes it away, which no white noise does. The gains know nothing of it, and the estimates
-    stay what they are: each correction takes of it what it sees, as in Schmidt's consider filter.
+    back takes it away, which no white noise does. The gains know nothing of it, but for those of a
+    speed, and the estimates stay what they are: each correction takes of it what it sees, as in
+    Schmidt's consider filter.
+
+    Of a body that is driven the rate is also askew by ``Push.axes_std`` against the vertical that
+    its accelerometer shows. What it carries of its velocity turns as the gyro says: of the angle
+    the forces upwards would seem to show that it is none, where a bias of the accelerometer makes
+    it.
     """
     up, moved = quaternion.to_matrix(q)[2, :].T, own @ before.velocity
     carried = push.carried(moved)
     p, b, v = (before.scaled[at, :] for at in (slice(0, 3), slice(3, 6), slice(6, 9)))
     turned = own @ p
-    attitude = turned + leak @ (b + scale_std * ca.diag(rate - before.bias))
-    velocity = own @ v - ca.skew(carried) @ turned + ca.skew(push.tilting(up, carried)) @ attitude
+    rate = rate - before.bias
+    askew = push.axes_std * (leak @ ca.skew(rate))
+    attitude = turned + leak @ (b + scale_std * ca.diag(rate)) + askew
+    velocity = own @ v - ca.skew(carried) @ (turned + askew)
+    velocity += ca.skew(push.tilting(up, carried)) @ attitude
     return ca.vertcat(attitude, b, velocity)
 
 
