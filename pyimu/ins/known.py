@@ -6,11 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyimu.attitude.columns import informed, nominal_part
+from pyimu.attitude.columns import NOMINAL_SCALE_STD, informed, nominal_part
 from pyimu.attitude.rest import Rest
 from pyimu.model.catalogue import CATALOGUE, read_off
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
+from pyimu.model.tolerance import Tolerance
+from pyimu.model.typical import magnitudes
 from pyimu.recording.recording import Recording
 
 STEPS = 20
@@ -26,7 +28,7 @@ turn, the fastest of a log, by two or three values as well."""
 def known_part(declared: Part | None, recording: Recording, rest: Rest) -> Part:
     """The part as the filter takes it; without one, the noise of the samples at rest."""
     if declared is None:
-        part = nominal_part(recording, rest)
+        part = replace(nominal_part(recording, rest), tolerances=unknown_tolerances())
         own = Part(part.name, part.sample_rate)
     else:
         part, own = informed(declared, recording, rest), declared
@@ -35,6 +37,25 @@ def known_part(declared: Part | None, recording: Recording, rest: Rest) -> Part:
         for kind in ("gyro", "accel")
     )
     return replace(part, gyro=gyro, accel=accel)
+
+
+def unknown_tolerances() -> tuple[Tolerance, ...]:
+    """How far scale factors and axes of sensors may be off of which nothing is known.
+
+    A gyro's scale factor is that of ``NOMINAL_SCALE_STD``; the others what ``typical.toml`` has of
+    a consumer part, whose data sheets quote limits.
+    """
+    found = [Tolerance(("gyro", "scale_factor", "s"), (NOMINAL_SCALE_STD,) * 3, "normal")]
+    for key in (
+        ("accel", "scale_factor", "s"),
+        ("gyro", "misalignment", "m"),
+        ("accel", "misalignment", "m"),
+    ):
+        kind, effect, _ = key
+        most = magnitudes(effect, kind)["consumer"].si
+        free = len(CATALOGUE[effect].parameters[key[2]].indices)
+        found.append(Tolerance(key, (most,) * free, "uniform"))
+    return tuple(found)
 
 
 def _with_true_limit(sensor: Sensor, own: Sensor, samples: np.ndarray) -> Sensor:

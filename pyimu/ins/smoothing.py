@@ -58,7 +58,7 @@ def smoothed(
         rows = y[: cuts[i].size]
         advance(run, piece, rows)
         mean, covariance = back.over(rows)
-        out.keep(rows, mean, covariance, piece)
+        out.keep(rows, mean, covariance, piece, back.centres(rows))
         say("smoothing", 0.5 + (len(cuts) - i) / len(cuts) / 2)
     return out.track(time)
 
@@ -74,7 +74,7 @@ class _Backward:
         self.before, self.after, self.moved, self.transition = (
             slice(a, b) for a, b in zip(ends[:-1], ends[1:], strict=True)
         )
-        self.nominal, self.n = layout.nominal, n
+        self.nominal, self.centre, self.n = layout.nominal, layout.centre, n
         self.upper = np.triu_indices(n)
         self.next: tuple[np.ndarray, ...] | None = None
 
@@ -98,6 +98,10 @@ class _Backward:
             kept = transition[k].copy() if k == 0 else transition[k]
             self.next = (before[k], kept, moved[k] + mean[k], covariance[k])
         return mean, covariance
+
+    def centres(self, y: np.ndarray) -> np.ndarray:
+        """The places (m, 3) about which the heading's errors turn the positions."""
+        return y[:, self.after][:, self.centre]
 
     def _back(self, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         if self.next is None:
@@ -131,20 +135,23 @@ class _Rows:
         self.std = np.empty((count, 9))
         self.correlation = np.empty(count)
 
-    def keep(self, y: np.ndarray, mean: np.ndarray, covariance: np.ndarray, piece) -> None:
+    def keep(
+        self, y: np.ndarray, mean: np.ndarray, covariance: np.ndarray, piece, centre: np.ndarray
+    ) -> None:
         at, rows = piece.at, piece.rows
-        y, mean, covariance = y[at], mean[at], covariance[at]
+        y, mean, covariance, centre = y[at], mean[at], covariance[at], centre[at]
         turn = Rotation.from_rotvec(mean[:, TURN])
         q = turn * Rotation.from_quat(y[:, :4], scalar_first=True)
         self.q[rows] = q.as_quat(scalar_first=True)
         velocity = turn.apply(y[:, 7:10] + mean[:, VELOCITY])
         self.velocity[rows] = velocity
         about = Rotation.from_rotvec(mean[:, TURN] * [0.0, 0.0, 1.0])
-        position = about.apply(y[:, 10:13] + mean[:, POSITION])
+        away = about.apply(y[:, 10:13] - centre + mean[:, POSITION])
+        position = centre + away
         self.position[rows] = position
         plain = np.tile(np.eye(9), (len(y), 1, 1))
         plain[:, VELOCITY, TURN] = -_skew(velocity)
-        plain[:, POSITION, 2] = -_skew(position)[:, :, 2]
+        plain[:, POSITION, 2] = -_skew(away)[:, :, 2]
         own = plain @ covariance[:, :9, :9] @ plain.transpose(0, 2, 1)
         variance = np.maximum(np.diagonal(own, axis1=1, axis2=2), 0)
         self.std[rows] = np.sqrt(variance)

@@ -12,6 +12,7 @@ from scipy.stats import chi2
 from pyimu.ins import run, smoothing
 from pyimu.ins.filter import ins_block, updates
 from pyimu.ins.filter.layout import Layout, State
+from pyimu.ins.filter.variables import POSITION_VALID
 from pyimu.rover.trajectory import Drive, motion
 
 RUNS = 40
@@ -130,16 +131,15 @@ def test_a_rest_does_not_tell_a_tilt_from_a_bias(runs_of_noise):
 def states(layout, x, error):
     """The nominal values (n,) of the state x with an ``error`` (n,) added, as in the docstring."""
     q = ca.DM(x)[: layout.nominal]
-    symbol = State(
-        q[:4], q[4:7], q[7:10], q[10:13], q[13:16], ca.DM(0, 1), ca.DM(0, 1), ca.DM(15, 15)
-    )
+    none = ca.DM(0, 1)
+    symbol = State(q[:4], q[4:7], q[7:10], q[10:13], q[13:16], none, none, q[16:], ca.DM(15, 15))
     moved = updates.changed(layout, symbol, ca.SX(ca.DM(error)))
     values = list(vars(moved).values())[:5]
     return np.array(ca.evalf(ca.vertcat(*values))).ravel()
 
 
-def difference(layout, a, b):
-    """The error (15,) of the nominal values b against a."""
+def difference(centre, a, b):
+    """The error (15,) of the nominal values b against a, of positions about a ``centre`` (3,)."""
     pair = [Rotation.from_quat(v[:4], scalar_first=True) for v in (a, b)]
     turn = pair[1] * pair[0].inv()
     about = Rotation.from_rotvec(turn.as_rotvec() * [0.0, 0.0, 1.0])
@@ -148,16 +148,18 @@ def difference(layout, a, b):
         [
             turn.as_rotvec(),
             turn.inv().apply(b[4:7]) - a[4:7],
-            about.inv().apply(b[7:10]) - a[7:10],
+            about.inv().apply(b[7:10] - centre) - (a[7:10] - centre),
             axes @ (b[10:13] - a[10:13]),
             axes @ (b[13:16] - a[13:16]),
         ]
     )
 
 
-def test_the_transition_is_what_the_mechanisation_makes_of_small_errors():
+@pytest.mark.parametrize("placed", (0.0, 1.0))
+def test_the_transition_is_what_the_mechanisation_makes_of_small_errors(placed):
     """F by central differences of the strapdown step itself, of a body that moves and turns, so
-    well known that all of its motion counts."""
+    well known that all of its motion counts. Where its position is measured the heading's error
+    turns it about itself from then on, and else about where that was before."""
     layout, rng = Layout(white(calibrated())), np.random.default_rng(0)
     predict, h = ins_block._predict(layout), 0.01
     block = ins_block.ins_of_log(layout)
@@ -166,6 +168,7 @@ def test_the_transition_is_what_the_mechanisation_makes_of_small_errors():
     bias = rng.normal(size=6) * 0.01
     bias[3:] += Rotation.from_quat(turn, scalar_first=True).inv().apply([0.0, 0.0, 9.80665])
     state[:16] = np.concatenate([turn, [0.5, -0.3, 0.1], [3.0, 2.0, 1.0], bias])
+    state[layout.centre] = [-1.0, 4.0, 2.0]
     state[layout.nominal : layout.packed] = 0.0
     memory = layout.packed + 7
     rate, force = np.array([0.1, -0.2, 0.6]), np.array([0.4, 0.3, 9.7])
@@ -174,7 +177,7 @@ def test_the_transition_is_what_the_mechanisation_makes_of_small_errors():
     p = block.start.copy()
     p[0] = 0.8
     u = block.start_inputs.copy()
-    u[:6] = np.concatenate([rate, force])
+    u[:6], u[POSITION_VALID] = np.concatenate([rate, force]), placed
 
     def after(nominal):
         s = state.copy()
@@ -183,11 +186,13 @@ def test_the_transition_is_what_the_mechanisation_makes_of_small_errors():
 
     found = np.array(predict(state, u, p, h)[-1]).reshape(15, 15).T
     base, step = after(state[:16]), 1e-5
+    centre = np.array(predict(state, u, p, h)[0]).ravel()[layout.centre]
+    np.testing.assert_allclose(centre, state[7:10] if placed else state[layout.centre])
     numeric = np.empty((15, 15))
     for i in range(15):
         error = np.zeros(15)
         error[i] = step
-        ends = [difference(layout, base, after(states(layout, state, s * error))) for s in (1, -1)]
+        ends = [difference(centre, base, after(states(layout, state, s * error))) for s in (1, -1)]
         numeric[:, i] = (ends[0] - ends[1]) / (2 * step)
     # what F leaves out is of the order of h^2 times a rate (0.7 rad/s) or a force (10 m/s^2)
     np.testing.assert_allclose(found, numeric, atol=h**2 * 10 * 0.6)

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{2fd91585-8cf1-d644-5de9-ef92b93c1b29}"
-#define MODEL_TOKEN_FMI3 "{428af038-0acb-80c3-dfab-064df683c1a0}"
+#define MODEL_TOKEN_FMI2 "{ce243362-ffbf-973c-11e0-197b16d6c8c3}"
+#define MODEL_TOKEN_FMI3 "{a5a8c522-b8a5-c1a0-ecd9-331063478c69}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,20 +16,20 @@ enum {
     N_INPUTS = 21,
     N_PARAMETERS = 41,
     N_OUTPUTS = 43,
-    N_STATES = 286,
+    N_STATES = 289,
     N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 107
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 29, WORK_RES = 9, WORK_IW = 0, WORK_W = 1932 };
+enum { WORK_ARG = 29, WORK_RES = 9, WORK_IW = 0, WORK_W = 1956 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 616953 };
+enum { MODEL_MOST_SAMPLES = 611645 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -276,7 +276,7 @@ def _outputs(layout: Layout, x: State, settings: Settings, report, lost, still) 
     p, back = ca.SX(x.covariance), quaternion.to_matrix(quaternion.conjugate(x.q))
     p[GYRO_BIAS, GYRO_BIAS] = back @ p[GYRO_BIAS, GYRO_BIAS] @ back.T
     accel_bias, p[RESTING, RESTING] = beginning.bias_of(layout, x, settings)
-    turned = prediction.about_the_start(x.position)
+    turned = prediction.about_the_centre(x.position - x.centre)
     for place, of_turn in ((VELOCITY, -ca.skew(x.velocity)), (PLACE, turned)):
         plain = ca.SX(3, layout.errors)
         plain[:, TURN], plain[:, place] = of_turn, ca.SX.eye(3)

@@ -84,7 +84,9 @@ class State:
     ``q`` (4,) body to east-north-up; ``velocity`` and ``position`` (3,); ``gyro_bias`` (3,);
     ``resting`` (3,) m/s^2 is what the accelerometer would show at rest in this attitude, its bias
     and gravity; ``gains`` (g,) in the order of ``Layout.gains``; ``mounting`` (2,) rad, by which
-    the vehicle's axes are pitched and turned against the body's; ``covariance`` (n, n).
+    the vehicle's axes are pitched and turned against the body's; ``centre`` (3,) m is the place
+    about which the heading's error turns the position: where the last measured position was, else
+    the start; ``covariance`` (n, n).
     """
 
     q: ca.SX
@@ -94,6 +96,7 @@ class State:
     resting: ca.SX
     gains: ca.SX
     mounting: ca.SX
+    centre: ca.SX
     covariance: ca.SX
 
 
@@ -130,7 +133,15 @@ class Layout:
 
     @property
     def nominal(self) -> int:
-        return self.errors + 1
+        """Numbers of an estimate but for its covariance: a quaternion has one more than its error,
+        and the centre has none.
+        """
+        return self.errors + 4
+
+    @property
+    def centre(self) -> slice:
+        """Where the packed state has ``State.centre``."""
+        return slice(self.nominal - 3, self.nominal)
 
     @cached_property
     def inputs(self) -> tuple[Variable, ...]:
@@ -175,7 +186,7 @@ class Layout:
         return ca.densify(ca.vertcat(*values[:-1], pack(x.covariance)))
 
     def unpack(self, column) -> State:
-        ends = np.cumsum([0, 4, 3, 3, 3, 3, len(self.gains), 2 * self.nhc]).tolist()
+        ends = np.cumsum([0, 4, 3, 3, 3, 3, len(self.gains), 2 * self.nhc, 3]).tolist()
         nominal = ca.vertsplit(column[: self.nominal], ends)
         return State(*nominal, unpack(column[self.nominal : self.packed], self.errors))
 

@@ -1,7 +1,7 @@
 """From one sample to the next: the row without the sensors' errors, the strapdown step, the noise.
 
 The error state is what the truth has beyond the estimate: q_true = exp(phi) q in world axes,
-v_true = exp(phi) (v + e), p_true = exp(z) (p + o), where z is the upright part of phi, the
+v_true = exp(phi) (v + e), p_true = c + exp(z) (p - c + o), where z is the upright part of phi, the
 difference of gains M, and those of gyro bias b and resting force s turned into world axes,
 d = R (b_true - b), r = R (s_true - s). The resting force is what the accelerometer would show at
 rest in the present attitude, b_a + (1 + M) R^T c, where c is gravity's reaction, upwards. Of rates
@@ -10,7 +10,7 @@ a = (1 + M)^-1 (f - s),
 
     phi' = -d - R (d_M w + n_g) - w_e x phi,
     e' = v x phi' - r - R (d_M a + n_a) - 2 w_e x e,
-    o' = e + (phi - z) x v + p x z',    d' = (R w) x d,
+    o' = e + (phi - z) x v + (p - c) x z',    d' = (R w) x d,
     r' = (R w) x r - A ((R w) x (c x phi) - c x phi') - R d_M (w x R^T c).
 
 At rest, where the estimate stands still in the world whatever its heading is, phi' = 0.
@@ -59,6 +59,7 @@ from pyimu.ins.filter.variables import (
     GYRO,
     INPUTS,
     OWN_PARAMETERS,
+    POSITION_VALID,
     STATIONARY,
     TEMPERATURE,
 )
@@ -101,8 +102,8 @@ class Sample:
     """A row: what was measured, in place of a missing number its last good one (``held``); ``rate``
     and ``force`` (3,) without the part's errors; which axes of the gyro (3,) and whether the
     accelerometer are ``lost``, 0 or 1; whether the body is at rest (``still``), does not turn
-    (``unturned``), or is now seen to have ``left`` a rest; the compensation's memory, the window's,
-    and what judges it.
+    (``unturned``), or is now seen to have ``left`` a rest; whether its position is measured
+    (``placed``); the compensation's memory, the window's, and what judges it.
     """
 
     held: ca.SX
@@ -113,6 +114,7 @@ class Sample:
     still: ca.SX
     unturned: ca.SX
     left: ca.SX
+    placed: ca.SX
     sensors: ca.SX
     window: ca.SX
     judged: ca.SX
@@ -157,7 +159,8 @@ def read(layout: Layout, memory: Memory, q, bias, u, settings: Settings, h) -> S
     still = is_finite(u[STATIONARY]) * (u[STATIONARY] > 0.5)
     rate = bias + fades * (rate - bias)
     kept = sensors, memory.window, memory.judged
-    return Sample(held, rate, force, gyro_lost, accel_lost, still, still, ca.SX(0), *kept)
+    none, placed = ca.SX(0), u[POSITION_VALID] > 0.5
+    return Sample(held, rate, force, gyro_lost, accel_lost, still, still, none, placed, *kept)
 
 
 def with_rest(
@@ -199,6 +202,7 @@ def predicted(
     A body that does not turn at both samples has not turned: what the gyro shows is then of its
     bias alone.
     """
+    x, shifted = _centred(x, sample)
     rest = memory.unturned * sample.unturned * (settings.scalar["zaru"] > 0)
     blind = ca.if_else(sample.accel_lost, 1, 0)
     turning = 1 - rest
@@ -232,6 +236,7 @@ def predicted(
     by_gains = wander.by_gains(layout, rate, axes)
     changes = by_gains, known - memory.counted, wander.by_turn(shift)
     transition = _transition(layout, step, changes, settings, h)
+    transition[POSITION, HEADING] += shifted
     both = transition @ x.covariance @ transition.T + _noise(layout, step, settings, h)
     both[UP, UP] = both[UP, UP] + _bending(x.covariance, both, settings)
     both[PLANE, PLANE] = both[PLANE, PLANE] + h * _bow(x, step)
@@ -244,6 +249,18 @@ def predicted(
         x, q=q, velocity=velocity, position=position, resting=resting, covariance=covariance
     )
     return _unseen(x, step, memory, sample, settings, h), transition, (mean_rate, known)
+
+
+def _centred(x: State, sample: Sample) -> tuple[State, ca.SX]:
+    """The estimate with the centre where it is, if its position is measured, and what an error of
+    the heading then adds to that of the position (3,).
+
+    A position that is known turns about no place far off: there a heading that is put right by z
+    at a distance r moves it by r z^2 / 2, which no linear error has, 12 cm for 1 deg at 800 m.
+    What is not measured turns about the last place that was.
+    """
+    centre = ca.if_else(sample.placed, x.position, x.centre)
+    return replace(x, centre=centre), about_the_centre(centre - x.centre)[:, 2]
 
 
 def _bending(before, after, settings: Settings):
@@ -280,10 +297,12 @@ def _of_velocity(x: State):
     return ca.trace(x.covariance[VELOCITY, VELOCITY]) / 3
 
 
-def about_the_start(position):
-    """What an attitude error makes of a ``position`` (3,), (3, 3): its upright part turns it."""
+def about_the_centre(away):
+    """What an attitude error makes of a position that is ``away`` (3,) of the centre, (3, 3): its
+    upright part turns it.
+    """
     turns = ca.SX(3, 3)
-    turns[:, 2] = -ca.skew(position)[:, 2]
+    turns[:, 2] = -ca.skew(away)[:, 2]
     return turns
 
 
@@ -317,7 +336,7 @@ class Step:
         by_turn[TURN, :] = ca.SX.eye(3)
         # as far as it still counts: of a gyro that is lost a half turn would be told by the stop
         by_turn[VELOCITY, :] = ca.skew(followed(0, velocity, _of_velocity(x)))
-        by_turn[POSITION, :] = -about_the_start(x.position)
+        by_turn[POSITION, :] = -about_the_centre(x.position - x.centre)
         by_turn[RESTING, :] = triad @ ca.skew(upright)
         by_tilt = triad @ wander.by_tilt(spin, upright)
         by_earth = earth_by_turn(x, settings.earth)

@@ -55,7 +55,7 @@ def _begun(layout: Layout, q, settings: Settings) -> State:
     spread[RESTING, BASE : BASE + len(layout.gains)] = axes @ layout.slopes("accel", resting)
     covariance = spread @ ca.diag(std**2) @ spread.T
     mounting = ca.SX.zeros(n - layout.mounting.start)
-    return State(q, none, none, none, resting, gains, mounting, ca.densify(covariance))
+    return State(q, none, none, none, resting, gains, mounting, none, ca.densify(covariance))
 
 
 def bias_of(layout: Layout, x: State, settings: Settings) -> tuple:

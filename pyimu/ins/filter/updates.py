@@ -24,7 +24,7 @@ from pyimu.ins.filter.layout import (
     Layout,
     State,
 )
-from pyimu.ins.filter.prediction import about_the_start
+from pyimu.ins.filter.prediction import about_the_centre
 from pyimu.ins.filter.weight import earth_by_turn
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import cholesky, forward, reciprocal, symmetric
@@ -72,7 +72,7 @@ def changed(layout: Layout, x: State, error) -> State:
         x,
         q=quaternion.normalized(quaternion.product(turn, x.q)),
         velocity=quaternion.rotate(turn, x.velocity + error[VELOCITY]),
-        position=quaternion.rotate(about, x.position + error[POSITION]),
+        position=x.centre + quaternion.rotate(about, x.position - x.centre + error[POSITION]),
         gyro_bias=x.gyro_bias + quaternion.rotate(back, error[GYRO_BIAS]),
         resting=x.resting + quaternion.rotate(back, error[RESTING]),
         gains=x.gains + error[gains],
@@ -160,7 +160,7 @@ def by_speed(layout: Layout, x: State, speed, variance, settings: Settings) -> t
 def by_position(layout: Layout, x: State, position, variance, settings: Settings) -> tuple:
     """A measured position (3,) of the antenna, p + R l, each of its axes with the ``variance``."""
     arm = quaternion.rotate(x.q, _arm(settings, "antenna"))
-    turns = about_the_start(x.position) - ca.skew(arm)
+    turns = about_the_centre(x.position - x.centre) - ca.skew(arm)
     slope = _slope(layout, 3, position=ca.SX.eye(3), turn=turns)
     off, noise = _of_known_axes(position - x.position - arm, variance)
     return corrected_by(layout, x, off, slope, noise, settings)

@@ -39,8 +39,8 @@ BY_CHANCE = 1e-4
 """Probability that velocities are called too far off where the standard deviations are right."""
 
 UNTOLD = (
-    "without a part the sensor's scale factors and axes are taken for exact; --part with its "
-    "tolerances, or the model.toml of pyimu close, says how exact they are"
+    "without a part the sensor's noise is that of its rest, and its scale factors and axes are "
+    "those of a consumer part; --part, or the model.toml of pyimu close, says what they are"
 )
 
 UNSEEN = 1
