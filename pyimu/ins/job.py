@@ -16,6 +16,7 @@ from pyimu.block.parameters import number, with_values
 from pyimu.ins.filter.ins_block import ins_of_log
 from pyimu.ins.filter.layout import Layout
 from pyimu.ins.filtered import Filtered, filtered
+from pyimu.ins.lasting import Lasting, lasting, too_small
 from pyimu.ins.measured import COURSE, Fixes
 from pyimu.ins.smoothing import smoothed
 from pyimu.ins.track import Reference, Track
@@ -55,10 +56,11 @@ class Job:
     live: bool
     fixes: Fixes | None
     settings: Mapping[str, Any]
+    lasting: Lasting | None = None
 
     @cached_property
     def layout(self) -> Layout:
-        return Layout(self.part, self.nhc, self.live)
+        return Layout(self.part, self.nhc, self.live, lasting=self.lasting is not None)
 
     @property
     def block(self) -> Block:
@@ -68,7 +70,9 @@ class Job:
         """The block's parameters."""
         values = {"latitude": self.latitude, "gravity": self.gravity, "detect": float(self.live)}
         fixes = {} if self.fixes is None else self.fixes.settings
-        return with_values(self.block, values | fixes | start.settings | dict(self.settings))
+        lasts = {} if self.lasting is None else self.lasting.settings
+        told = fixes | lasts | start.settings | dict(self.settings)
+        return with_values(self.block, values | told)
 
     def told(self, start: Start) -> dict[str, Any]:
         """What a result says of it, by the fields of ``Outcome``."""
@@ -91,10 +95,25 @@ class Job:
             more = self.fixes.of_antenna(self._antenna(start))
         return InputGrid(marked, self.part, names, more=more)
 
+    def with_lasting(self, found: Filtered, start: Start, say: Callable[..., None]) -> Job:
+        """The job with what lasts of the errors of its positions; itself where nothing shows that
+        something does.
+        """
+        if self.fixes is None or not too_small(found, self.fixes):
+            return self
+        lasts = lasting(self.fixes, self.smoothed(start, say), self._arm(start))
+        if lasts is None:
+            return self
+        return replace(self, fixes=lasts.rest(self.fixes), lasting=lasts)
+
+    def _arm(self, start: Start) -> np.ndarray:
+        """From the sensor to the antenna (3,) m, body axes."""
+        p, names = self.p(start), [v.name for v in self.block.parameters]
+        return np.array([p[names.index(f"antenna[{i}]")] for i in (1, 2, 3)])
+
     def _antenna(self, start: Start) -> np.ndarray:
         """Where the antenna (3,) is at the start, m in world axes, of a body that stands level."""
-        p, names = self.p(start), [v.name for v in self.block.parameters]
-        x, y, z = (p[names.index(f"antenna[{i}]")] for i in (1, 2, 3))
+        x, y, z = self._arm(start)
         c, s = np.cos(start.heading), np.sin(start.heading)
         return np.array([c * x - s * y, s * x + c * y, z])
 

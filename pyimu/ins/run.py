@@ -99,6 +99,10 @@ def run(
     job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
     reference = reference_of(recording)
     found, start = job.started(heading0, reference)
+    job = job.with_lasting(found, start, say)
+    if job.lasting is not None:
+        found = job.filtered(start)
+        findings.append(job.lasting.finding)
     findings += _of_fixes(job, found, start, zupt)
     if nhc:
         free = replace(job, nhc=False).filtered(start)

@@ -34,6 +34,7 @@ MEANING = {
     "interpolated": "brought to the times of the gyro between its own samples",
     "jitter": "the time stamps scatter about even times",
     "layout": "how the table was taken apart",
+    "lasting_fixes": "errors of measured positions last, and were estimated: a receiver's do",
     "leaning": "the body lies on its side, or its axes are not forward-left-up",
     "leans": "the vehicle leans into its turns; the course is taken for what it is along the gyro",
     "line": "one frequency stands out, as the mains' does; a slow reference does not show it",

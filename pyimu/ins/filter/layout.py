@@ -12,7 +12,7 @@ import numpy as np
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.block.variables import Variable
 from pyimu.ins.filter import rest_judged, rest_window
-from pyimu.ins.filter.variables import INPUTS, OWN_PARAMETERS
+from pyimu.ins.filter.variables import INPUTS, LASTING, OWN_PARAMETERS
 from pyimu.model.part import Part, input_variables
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic.linear import pack, unpack
@@ -86,7 +86,8 @@ class State:
     and gravity; ``gains`` (g,) in the order of ``Layout.gains``; ``mounting`` (2,) rad, by which
     the vehicle's axes are pitched and turned against the body's; ``centre`` (3,) m is the place
     about which the heading's error turns the position: where the last measured position was, else
-    the start; ``covariance`` (n, n).
+    the start; ``lasting`` (3,) m is the error of measured positions that lasts; ``covariance``
+    (n, n).
     """
 
     q: ca.SX
@@ -96,6 +97,7 @@ class State:
     resting: ca.SX
     gains: ca.SX
     mounting: ca.SX
+    lasting: ca.SX
     centre: ca.SX
     covariance: ca.SX
 
@@ -105,13 +107,15 @@ class Layout:
     """The sizes of a filter for a part; ``nhc`` says whether it can take a vehicle's constraint,
     ``detects`` whether it finds rests by itself.
 
-    ``mounting_std`` rad is how well the vehicle's axes are known in those of the body.
+    ``mounting_std`` rad is how well the vehicle's axes are known in those of the body; where
+    errors of positions are ``lasting``, that part of them is estimated.
     """
 
     part: Part
     nhc: bool = False
     detects: bool = False
     mounting_std: float = 0.02
+    lasting: bool = False
 
     @cached_property
     def compensation(self) -> Compensation:
@@ -124,12 +128,18 @@ class Layout:
     @property
     def errors(self) -> int:
         """Numbers of the error state."""
-        return BASE + len(self.gains) + 2 * self.nhc
+        return self.mounting.stop + 3 * self.lasting
 
     @property
     def mounting(self) -> slice:
         """Where the error state has the mounting of the vehicle's axes; empty without them."""
-        return slice(BASE + len(self.gains), self.errors)
+        first = BASE + len(self.gains)
+        return slice(first, first + 2 * self.nhc)
+
+    @property
+    def of_positions(self) -> slice:
+        """Where the error state has that of ``State.lasting``; empty without it."""
+        return slice(self.mounting.stop, self.errors)
 
     @property
     def nominal(self) -> int:
@@ -147,10 +157,15 @@ class Layout:
     def inputs(self) -> tuple[Variable, ...]:
         return (*INPUTS, *input_variables(self.compensation.extra))
 
+    @property
+    def own_parameters(self) -> tuple[Variable, ...]:
+        """The filter's own, before the coefficients of the part's sensors."""
+        return (*OWN_PARAMETERS, *(LASTING if self.lasting else ()))
+
     @cached_property
     def parameters(self) -> tuple[Variable, ...]:
         start = start_values(self.part)
-        own = [replace(v, start=start.get(v.name, v.start)) for v in OWN_PARAMETERS]
+        own = [replace(v, start=start.get(v.name, v.start)) for v in self.own_parameters]
         if self.nhc:
             own = [replace(v, start=1.0) if v.name == "nhc" else v for v in own]
         return (*own, *self.part.gyro.variables, *self.part.accel.variables)
@@ -186,7 +201,9 @@ class Layout:
         return ca.densify(ca.vertcat(*values[:-1], pack(x.covariance)))
 
     def unpack(self, column) -> State:
-        ends = np.cumsum([0, 4, 3, 3, 3, 3, len(self.gains), 2 * self.nhc, 3]).tolist()
+        ends = np.cumsum(
+            [0, 4, 3, 3, 3, 3, len(self.gains), 2 * self.nhc, 3 * self.lasting, 3]
+        ).tolist()
         nominal = ca.vertsplit(column[: self.nominal], ends)
         return State(*nominal, unpack(column[self.nominal : self.packed], self.errors))
 

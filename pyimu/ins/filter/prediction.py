@@ -58,7 +58,6 @@ from pyimu.ins.filter.variables import (
     ACCEL,
     GYRO,
     INPUTS,
-    OWN_PARAMETERS,
     POSITION_VALID,
     STATIONARY,
     TEMPERATURE,
@@ -126,7 +125,7 @@ class Sample:
 
 
 def settings_of(layout: Layout, p) -> Settings:
-    return Settings.of(layout.compensation, p, OWN_PARAMETERS, LASTS)
+    return Settings.of(layout.compensation, p, layout.own_parameters, LASTS)
 
 
 def read(layout: Layout, memory: Memory, q, bias, u, settings: Settings, h) -> Sample:
@@ -237,6 +236,9 @@ def predicted(
     changes = by_gains, known - memory.counted, wander.by_turn(shift)
     transition = _transition(layout, step, changes, settings, h)
     transition[POSITION, HEADING] += shifted
+    fades = ca.exp(-h / settings.scalar["position_lasting_time"]) if layout.lasting else 1
+    kept = layout.of_positions
+    transition[kept, kept] = fades * transition[kept, kept]
     both = transition @ x.covariance @ transition.T + _noise(layout, step, settings, h)
     both[UP, UP] = both[UP, UP] + _bending(x.covariance, both, settings)
     both[PLANE, PLANE] = both[PLANE, PLANE] + h * _bow(x, step)
@@ -245,9 +247,8 @@ def predicted(
         for place, size in ((VELOCITY, LEAST_SPEED), (RESTING, FORCE_STAYS)):
             both[place, place] = both[place, place] + sample.left * size**2 * ca.SX.eye(3)
     covariance = symmetric(layout.errors, lambda i, j: both[i, j])
-    x = replace(
-        x, q=q, velocity=velocity, position=position, resting=resting, covariance=covariance
-    )
+    moves = {"q": q, "velocity": velocity, "position": position, "resting": resting}
+    x = replace(x, **moves, lasting=fades * x.lasting, covariance=covariance)
     return _unseen(x, step, memory, sample, settings, h), transition, (mean_rate, known)
 
 
@@ -388,6 +389,10 @@ def _noise(layout: Layout, step: Step, settings: Settings, h) -> ca.SX:
     for place, noise in ((GYRO_BIAS, settings.gyro), (RESTING, settings.accel)):
         q[place, place] = q[place, place] + h * axes @ ca.diag(noise.walk**2) @ axes.T
     q[UP, UP] = q[UP, UP] + h * step.wander.noise
+    if layout.lasting:
+        size, time = (settings.scalar[f"position_lasting_{n}"] for n in ("std", "time"))
+        own = layout.of_positions
+        q[own, own] = size**2 * (1 - ca.exp(-2 * h / time)) * ca.SX.eye(3)
     return q
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import casadi as ca
 
 from pyimu.attitude.filter.settings import Settings
-from pyimu.ins.filter.layout import BASE, GYRO_BIAS, RESTING, TURN, Layout, State
+from pyimu.ins.filter.layout import BASE, GYRO_BIAS, POSITION, RESTING, TURN, Layout, State
 from pyimu.ins.filter.weight import in_world, upright_of
 from pyimu.symbolic import quaternion
 
@@ -43,6 +43,7 @@ def _begun(layout: Layout, q, settings: Settings) -> State:
         *three("accel_bias_std0"),
         *[gain.std for gain in layout.gains],
         *[layout.mounting_std] * (2 * layout.nhc),
+        *[at["position_lasting_std"] for _ in range(3 * layout.lasting)],
     )
     none, upright = ca.SX.zeros(3), upright_of(settings)
     gains = ca.SX.zeros(len(layout.gains))
@@ -53,9 +54,13 @@ def _begun(layout: Layout, q, settings: Settings) -> State:
     spread[RESTING, TURN] = ca.skew(upright)
     spread[RESTING, RESTING] = axes
     spread[RESTING, BASE : BASE + len(layout.gains)] = axes @ layout.slopes("accel", resting)
+    if layout.lasting:
+        # the first position is the origin, which is off by its error
+        spread[POSITION, layout.of_positions] = -ca.SX.eye(3)
     covariance = spread @ ca.diag(std**2) @ spread.T
-    mounting = ca.SX.zeros(n - layout.mounting.start)
-    return State(q, none, none, none, resting, gains, mounting, none, ca.densify(covariance))
+    mounting, lasting = ca.SX.zeros(2 * layout.nhc), ca.SX.zeros(3 * layout.lasting)
+    known = (q, none, none, none, resting, gains, mounting, lasting, none)
+    return State(*known, ca.densify(covariance))
 
 
 def bias_of(layout: Layout, x: State, settings: Settings) -> tuple:

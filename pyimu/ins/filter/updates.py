@@ -77,6 +77,7 @@ def changed(layout: Layout, x: State, error) -> State:
         resting=x.resting + quaternion.rotate(back, error[RESTING]),
         gains=x.gains + error[gains],
         mounting=x.mounting + error[layout.mounting],
+        lasting=x.lasting + error[layout.of_positions],
     )
 
 
@@ -162,7 +163,11 @@ def by_position(layout: Layout, x: State, position, variance, settings: Settings
     arm = quaternion.rotate(x.q, _arm(settings, "antenna"))
     turns = about_the_centre(x.position - x.centre) - ca.skew(arm)
     slope = _slope(layout, 3, position=ca.SX.eye(3), turn=turns)
-    off, noise = _of_known_axes(position - x.position - arm, variance)
+    off = position - x.position - arm
+    if layout.lasting:
+        slope[:, layout.of_positions] = ca.SX.eye(3)
+        off = off - x.lasting
+    off, noise = _of_known_axes(off, variance)
     return corrected_by(layout, x, off, slope, noise, settings)
 
 

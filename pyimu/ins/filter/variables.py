@@ -139,6 +139,13 @@ OWN_PARAMETERS = (
 )
 """The filter's own parameters; the coefficients of the part's sensors follow."""
 
+LASTING = (
+    _setting("position_lasting_std", "m", "standard deviation of a position's lasting error", 1.0),
+    _setting("position_lasting_time", "s", "time constant with which it is forgotten", 60.0, 1e-3),
+)
+"""Those of a filter that estimates what lasts of the errors of measured positions: a Gauss-Markov
+process, of its own on each axis."""
+
 OUTPUTS = (
     *array("q", "1", "attitude, body to east-north-up, scalar first", (1.0, 0.0, 0.0, 0.0)),
     Variable("roll", "rad", "roll of Rz(yaw) Ry(pitch) Rx(roll)"),

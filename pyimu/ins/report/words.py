@@ -259,6 +259,14 @@ def _of_feet(a: Outcome) -> str:
 
 def _fixes(a: Outcome) -> Iterator[str]:
     for f in a.findings:
+        if f.kind == "lasting_fixes":
+            yield (
+                "The errors of the measured positions last, as a receiver's do, or their claimed "
+                "standard deviation is too large: from one to the next they change by less. "
+                f"Errors of {quantity(f.detail['std'], 'm')} that are forgotten in "
+                f"{quantity(f.detail['time'], 's')} were estimated beside new ones of "
+                f"{quantity(f.detail['new'], 'm')} each time"
+            )
         if f.kind not in FIXES:
             continue
         stands = a.zupt == "foot" and f.column == "velocity"
