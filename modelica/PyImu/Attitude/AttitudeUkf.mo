@@ -55,6 +55,9 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real scaleStd(unit="1", min=0) = 0
     "Standard deviation of the scale factor of each of the gyro's axes, of which the run learns nothing"
     annotation(Dialog(group="Filter"));
+  parameter Real axesStd(unit="rad", min=0) = 0
+    "Standard deviation of the angle, about each axis, between the vertical of the accelerometer and the axis about which the gyro says that a body turns whose speed is given"
+    annotation(Dialog(group="Filter"));
   parameter Real biasNoise(min=0) = 0
     "Root density of the walk of the bias over the rate [1/sqrt(s)]"
     annotation(Dialog(group="Filter"));
@@ -210,18 +213,18 @@ protected
   Modelica.Blocks.Interfaces.RealInput speedVarianceUsed;
   Modelica.Blocks.Interfaces.BooleanInput speedValidUsed;
   Modelica.Blocks.Interfaces.RealInput magUsed[3];
-  final parameter Real p[61] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
+  final parameter Real p[62] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
     bias0[3], std0[1], std0[2], std0[3], std0[4], std0[5], std0[6], gravity, accelStd,
     accelBiasStd, accelCorrelationTime, gravityWalk, gravityTolerance, motionTolerance,
-    steadyTolerance, motionTime, motionShare, rateNoise, scaleStd, biasNoise, stationaryStd,
-    restTime, restRateTolerance, restForceTolerance, slipStd, speedTolerance, lostRateStd,
-    stuckTime, axisStuckTime[1], axisStuckTime[2], axisStuckTime[3], axisStuckTime[4],
-    axisStuckTime[5], axisStuckTime[6], headingMemory, declination, fieldStrength, fieldDip,
-    fieldStrengthStd, fieldStd, fieldTime, fieldTurningStd, fieldNoise, fieldTolerance,
-    gyroThermalBias_kT[1], gyroThermalBias_kT[2], gyroThermalBias_kT[3], gyroThermalBias_T0,
-    gyroAngleRandomWalk_N[1], gyroAngleRandomWalk_N[2], gyroAngleRandomWalk_N[3],
-    gyroRateRandomWalk_K[1], gyroRateRandomWalk_K[2], gyroRateRandomWalk_K[3]}
-    "In the order of the co-simulation unit";
+    steadyTolerance, motionTime, motionShare, rateNoise, scaleStd, axesStd, biasNoise,
+    stationaryStd, restTime, restRateTolerance, restForceTolerance, slipStd, speedTolerance,
+    lostRateStd, stuckTime, axisStuckTime[1], axisStuckTime[2], axisStuckTime[3],
+    axisStuckTime[4], axisStuckTime[5], axisStuckTime[6], headingMemory, declination,
+    fieldStrength, fieldDip, fieldStrengthStd, fieldStd, fieldTime, fieldTurningStd, fieldNoise,
+    fieldTolerance, gyroThermalBias_kT[1], gyroThermalBias_kT[2], gyroThermalBias_kT[3],
+    gyroThermalBias_T0, gyroAngleRandomWalk_N[1], gyroAngleRandomWalk_N[2],
+    gyroAngleRandomWalk_N[3], gyroRateRandomWalk_K[1], gyroRateRandomWalk_K[2],
+    gyroRateRandomWalk_K[3]} "In the order of the co-simulation unit";
   AttitudeUkfMemory memory = AttitudeUkfMemory(samplePeriod, p);
   discrete Real k(start=0, fixed=true) "Number of the sample; 0 is the start";
   Real u[18] "Inputs, in the order of the co-simulation unit";
@@ -248,6 +251,7 @@ equation
   assert(motionShare <= 1, "AttitudeUkf: motionShare must not be above 1");
   assert(rateNoise >= 0, "AttitudeUkf: rateNoise must not be below 0");
   assert(scaleStd >= 0, "AttitudeUkf: scaleStd must not be below 0");
+  assert(axesStd >= 0, "AttitudeUkf: axesStd must not be below 0");
   assert(biasNoise >= 0, "AttitudeUkf: biasNoise must not be below 0");
   assert(stationaryStd >= 0, "AttitudeUkf: stationaryStd must not be below 0");
   assert(restTime >= 0, "AttitudeUkf: restTime must not be below 0");
@@ -367,6 +371,10 @@ rateNoise is not 0.</td></tr>
 <tr><td>scaleStd</td><td>Standard deviation of the scale factor of each of the gyro's axes, of which
 the run learns nothing: std has what that makes of a turn that goes on, and of the bias; the
 estimates are the same.</td></tr>
+<tr><td>axesStd</td><td>Standard deviation of the angle, about each axis, between the vertical of
+the accelerometer and the axis about which the gyro says that a body turns whose speed is given: a
+bias of the accelerometer, axes of either. It turns with the body, and nothing is learnt of
+it.</td></tr>
 <tr><td>biasNoise</td><td>Root density of the walk of the bias over the rate: a gyro that feels
 forces has another bias when it has turned over.</td></tr>
 <tr><td>restTime</td><td>A body of which no sample differs from the others for so long is at rest,
