@@ -87,7 +87,7 @@ def seeds(folder: Path) -> None:
     for kind in ("csv", "csv.gz", "parquet", "mcap", "db3", "bag", "mat", "mat73", "hdf5"):
         _take(folder, kind.replace(".", "_"), lambda place, k=kind: _of_kind(place, k, log))
     _take(folder, "bag_of_ros2", lambda place: _of_kind(place, "folder", log))
-    for make in (*raw_logs.ALONE, *log_folders.FILES, *log_folders.FOLDERS):
+    for make in (*raw_logs.ALONE, *log_folders.FILES, *log_folders.FOLDERS, *log_folders.OTHERS):
         _take(folder, make.__name__, lambda place, make=make: make(place, still))
     for make in raw_logs.MAPPED:
         make(_mapped(folder, make.__name__), still)

@@ -73,8 +73,9 @@ class Prepared:
             recording = calibrated(recording, calibration)
         wanted = calibration is not None or bool(magnetometer)
         field = replace(magnetometer_of(recording, wanted and own), calibration=calibration)
-        known = nominal_part(recording, rest)
-        if declared is not None:
+        if declared is None:
+            known = nominal_part(recording, rest)
+        else:
             known = informed(declared, recording, rest)
         recording, beyond = beyond_range(recording, known)
         return cls(as_given, recording, between, rest, declared, known, beyond, field)

@@ -239,15 +239,13 @@ def _nclt_truth(reader: Reader) -> ForeignMap | None:
     return ForeignMap(columns=columns, body=BODY["frd"], world="ned")
 
 
-def _unnamed(reader: Reader, begin: str, width: int) -> list[str] | None:
-    """The cells of a table of so many columns without names, in a file whose name has a ``begin``;
+def _unnamed(reader: Reader, word: str, width: int) -> list[str] | None:
+    """The cells of a table of so many columns without names, in a file whose name has a ``word``;
     None of any other.
     """
     bare = all(re.fullmatch(r"column \d+", cell) for cell in reader.header)
     name = reader.path.name.casefold()
-    return (
-        reader.header if bare and len(reader.header) == width and name.startswith(begin) else None
-    )
+    return reader.header if bare and len(reader.header) == width and word in name else None
 
 
 def _oxts(reader: Reader) -> ForeignMap | None:

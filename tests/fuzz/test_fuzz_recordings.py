@@ -7,6 +7,7 @@ import pytest
 from places import program
 
 from pyimu.errors import UserError
+from pyimu.recording.formats.oxts import oxts_in
 from pyimu.recording.formats.suffix import READERS, open_reader
 from pyimu.recording.known import FORMATS, recognised
 from pyimu.recording.log import read_recording
@@ -38,7 +39,8 @@ def test_there_is_a_log_of_every_reader_and_every_known_layout(seeds):
     paths = tables(seeds)
     suffixes = {suffix for suffix in READERS if any(p.name.endswith(suffix) for p in paths)}
     assert {READERS[suffix] for suffix in suffixes} == set(READERS.values())
-    found = [open_reader(path) for path in paths]
+    folders = [s for s in map(oxts_in, filter(Path.is_dir, seeds)) if s is not None]
+    found = [open_reader(path) for path in (*paths, *folders)]
     known = {known[0] for known in map(recognised, found) if known is not None}
     assert {name for name, _ in FORMATS} <= known
 

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 import pyimu
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.place import UNKNOWN, Place
-from pyimu.identification.reference.place import OCTAVE
+from pyimu.identification.reference.place import BEYOND
 from pyimu.identification.trials import BAND_SHARE
 from pyimu.recording.recording import Recording
 
@@ -205,7 +205,7 @@ def test_what_was_differentiated_is_no_noisier_about_the_ends_of_a_stretch():
     rng, time = np.random.default_rng(3), np.arange(n) / RATE
     pushed = np.diff(1e-3 * rng.standard_normal((n + 2, stretches)), 2, axis=0) * RATE**2
     place = Place(0.0, 0.0, np.zeros((UNKNOWN, 3, n)), np.zeros((n, 3)), time, cutoff)
-    band = Band.below(BAND_SHARE * cutoff / OCTAVE, RATE)
+    band = Band.below(BAND_SHARE * cutoff / BEYOND, RATE)
     rows = band.apply(place.below(pushed, [(0, n)]), [(0, n)])
     variance = np.mean(rows**2, axis=1)
     middle = variance[len(rows) // 2]

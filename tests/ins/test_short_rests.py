@@ -49,7 +49,7 @@ def test_the_path_of_a_foot_holds_by_default():
     found = ins.run(log, method="filter", heading0=walk_heading(own))
     off = found.tracks["filter"].position[-1] - own.place[-1]
     way = np.linalg.norm(np.diff(own.place[::20], axis=0), axis=1).sum()
-    assert way > 40 and np.linalg.norm(off) < 0.02 * way
+    assert way > 40 and np.linalg.norm(off) < 0.05 * way
 
 
 ROLL = 0.3

@@ -7,6 +7,8 @@ import raw_logs
 from raw_logs import AXES, FIRST, text
 from scipy.spatial.transform import Rotation
 
+from pyimu.recording.formats.oxts import NAMES as OXTS
+
 TRUTH = "state_groundtruth_estimate0"
 
 
@@ -97,5 +99,40 @@ def phone_gyro(folder, log):
     return text(folder / "Gyroscope.csv", ["time,seconds_elapsed,z,y,x"], columns)
 
 
+def nclt_imu(folder, log):
+    """NCLT's ms25.csv: us since 1970, gauss, m/s^2, rad/s, without names."""
+    time, gyro, accel = log
+    field = np.tile([0.2, 0.0, 0.4], (len(time), 1))
+    columns = [1326030975726043 + time // 1000, *field.T, *accel.T, *gyro.T]
+    text(folder / "ms25.csv", [], columns)
+    return folder / "ms25.csv"
+
+
+def nclt_truth(folder, log):
+    """NCLT's ground truth: us since 1970, north, east, down, roll, pitch, heading."""
+    time, name = log[0], "groundtruth_2012-01-08.csv"
+    text(folder / name, [], [1326030975726043 + time // 1000, *np.zeros((6, len(time)))])
+    return folder / name
+
+
+def kitti_drive(folder, log):
+    """A drive of KITTI: a text of thirty numbers for each sample, and their times."""
+    time, gyro, accel = log
+    (folder / "drive_0001" / "oxts" / "data").mkdir(parents=True)
+    oxts = folder / "drive_0001" / "oxts"
+    start = np.datetime64("2011-09-26T13:02:25.594360375")
+    stamps = [str(start + np.timedelta64(int(t), "ns")).replace("T", " ") for t in time]
+    (oxts / "timestamps.txt").write_text("\n".join(stamps) + "\n")
+    numbers = np.zeros((len(time), len(OXTS)))
+    numbers[:, 0] = 49.0
+    for names, columns in ((("ax", "ay", "az"), accel), (("wx", "wy", "wz"), gyro)):
+        numbers[:, [OXTS.index(n) for n in names]] = columns
+    for k, row in enumerate(numbers.tolist()):
+        (oxts / "data" / f"{k:010d}.txt").write_text(" ".join(map(repr, row)) + "\n")
+    return folder / "drive_0001"
+
+
 FOLDERS = (android_uncalibrated, ios_total, phyphox_field, euroc_sequence)
 FILES = (xsens_fine, xsens_dot, phone_gyro)
+OTHERS = (nclt_imu, nclt_truth, kitti_drive)
+"""Layouts of which tests of their own say what is in them."""
