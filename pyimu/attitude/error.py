@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -77,6 +78,6 @@ def angle_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return 2 * np.arcsin(np.minimum(1, np.linalg.norm(a - b, axis=-1) / 2))
 
 
-def root_mean_square(values: np.ndarray) -> float:
+def root_mean_square(values: Sequence[float] | np.ndarray) -> float:
     """NaN of no values."""
-    return float(np.sqrt(np.mean(values**2))) if len(values) else float("nan")
+    return float(np.sqrt(np.mean(np.square(values)))) if len(values) else float("nan")

@@ -8,10 +8,9 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.identification.as_part import SENSORS
+from pyimu.identification.instead import DEAD_ZONES
 from pyimu.model.kinds import KINDS
 from pyimu.report.numbers import quantity
-
-DEAD_ZONES = ("dead_zone", "hard_dead_zone")
 
 
 def beyond(findings: Iterable[Finding]) -> tuple[str, ...]:
