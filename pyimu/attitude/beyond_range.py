@@ -17,6 +17,8 @@ from functools import cache
 
 import numpy as np
 
+from pyimu.attitude.error import root_mean_square
+from pyimu.attitude.filter.variables import USUAL
 from pyimu.model.catalogue import CATALOGUE, read_off
 from pyimu.model.part import Part
 from pyimu.recording.clock import runs
@@ -134,28 +136,38 @@ def beyond_range(recording: Recording, part: Part) -> tuple[Recording, float]:
     The limit is that of ``part``, which has what the samples pile up at. Gives, too, the standard
     deviation in rad/s of the rates that were drawn, as a rate that stays the same for a span; 0
     where none were. Each axis of which ``LEAST`` known spans say that drawing helps is drawn;
-    others stay at their limit.
+    others stay at their limit. Where one does, or where samples are missing, the filter's own
+    ``lost_rate_std`` is the least: it has one for all rates that are lost.
     """
     effect, parameter = read_off(CATALOGUE.values(), "ceiling")
     limits = part.gyro.values.get(effect, {}).get(parameter)
     if recording.gyro is None or limits is None:
         return recording, 0.0
     gyro, off = recording.gyro.copy(), [0.0]
+    unknown = not np.isfinite(gyro).all()
     edges = np.array([first for first, _ in recording.segments[1:]], dtype=int)
     for column, limit in zip(gyro.T, np.broadcast_to(limits, 3), strict=True):
         lost = (np.abs(column) >= limit) | clipped(column)
         if limit > 0 and lost.any():
             column[:], std = _drawn(Axis(column.copy(), float(limit), lost, edges))
-            off.append(std)
-    return (replace(recording, gyro=gyro), max(off)) if max(off) > 0 else (recording, 0.0)
+            unknown |= std is None
+            off.append(std or 0.0)
+    if max(off) == 0:
+        return recording, 0.0
+    least = USUAL["lost_rate_std"] if unknown else 0.0
+    return replace(recording, gyro=gyro), max(*off, least)
 
 
-def _drawn(axis: Axis) -> tuple[np.ndarray, float]:
-    """The rates of an axis with its spans drawn, and the standard deviation of these in rad/s."""
+def _drawn(axis: Axis) -> tuple[np.ndarray, float | None]:
+    """The rates of an axis with its spans drawn, and the standard deviation of these in rad/s: 0
+    without spans, None where nothing tells how to draw them.
+    """
     spans, out = axis.spans(), axis.rate.copy()
-    cubics = _judged(axis, spans) if spans else None
-    if cubics is None:
+    if not spans:
         return out, 0.0
+    cubics = _judged(axis, spans)
+    if cubics is None:
+        return out, None
     errors = []
     for span in spans:
         beyond = cubics.drawn(axis, span)
@@ -164,7 +176,7 @@ def _drawn(axis: Axis) -> tuple[np.ndarray, float]:
             continue
         out[span.first : span.stop] = axis.sign(span) * (axis.limit + beyond)
         errors.append(cubics.off * np.sum(beyond))
-    return out, _size(errors) / _size([s.stop - s.first for s in spans])
+    return out, root_mean_square(errors) / root_mean_square([s.stop - s.first for s in spans])
 
 
 def _judged(axis: Axis, spans: list[Span]) -> Cubics | None:
@@ -172,7 +184,7 @@ def _judged(axis: Axis, spans: list[Span]) -> Cubics | None:
 
     None where they restore none, or too few are like those that are lost.
     """
-    lasting = _size([s.stop - s.first for s in spans])
+    lasting = root_mean_square([s.stop - s.first for s in spans])
     true, lengths = [], []
     found: dict[tuple[int, int], list[float]] = {way: [] for way in WAYS}
     known = list(_known(axis, lasting))
@@ -188,13 +200,13 @@ def _judged(axis: Axis, spans: list[Span]) -> Cubics | None:
     if len(true) < LEAST:
         return None
     shares = {way: _share(np.array(true), np.array(turns)) for way, turns in found.items()}
-    errors = {way: _size(true - shares[way] * np.array(found[way])) for way in WAYS}
+    errors = {way: root_mean_square(true - shares[way] * np.array(found[way])) for way in WAYS}
     ways = sorted(WAYS, key=lambda way: errors[way])
     best = ways[0]
-    restored = shares[best] * _size(found[best])
+    restored = shares[best] * root_mean_square(found[best])
     if restored <= 0:
         return None
-    held = _size(true) / _size(lengths)
+    held = root_mean_square(true) / root_mean_square(lengths)
     return Cubics(ways, shares[best], max(lengths), errors[best] / restored, held)
 
 
@@ -218,10 +230,7 @@ def _known(axis: Axis, lasting: float) -> Iterator[tuple[Axis, Span]]:
 
 def _cubic(before: np.ndarray, after: np.ndarray, count: int, degree: int) -> np.ndarray:
     """The ``count`` samples of Hermite's cubic between the samples ``before`` and ``after``."""
-    (left, rise), (right, fall) = (
-        _end(before, degree),
-        _end(after[::-1], degree),
-    )
+    (left, rise), (right, fall) = _end(before, degree), _end(after[::-1], degree)
     u = np.arange(1, count + 1) / (count + 1)
     bend = (count + 1) * u * (1 - u)
     return (
@@ -242,7 +251,3 @@ def _weights(count: int, degree: int) -> np.ndarray:
     """(2, count): what value and slope of ``_end`` have of each sample, by least squares."""
     at = np.arange(1 - count, 1)
     return np.linalg.pinv(np.vander(at, degree + 1, increasing=True))[:2]
-
-
-def _size(values) -> float:
-    return float(np.sqrt(np.mean(np.square(values))))

@@ -119,3 +119,21 @@ def test_nothing_is_drawn_across_a_gap():
     inside = slice(spans[3].first, spans[3].stop)
     assert np.array_equal(found.gyro[inside], clipped.gyro[inside])
     assert not np.array_equal(found.gyro, clipped.gyro)
+
+
+@pytest.mark.parametrize("lost", ["another axis", "samples"])
+def test_what_is_drawn_makes_nothing_else_that_is_lost_surer(lost):
+    """The filter has one standard deviation for all: of an axis whose knock nothing draws, and of
+    samples that are missing for long, it stays what it is.
+    """
+    usual = 1.0
+    clipped, _ = cut(swung(4)[0], 0.9)
+    assert 0.0 < drawn(clipped)[1] < usual
+    gyro = clipped.gyro.copy()
+    if lost == "samples":
+        gyro[3000:3100] = np.nan
+    else:
+        knock = 8.0 * np.exp(-(((clipped.time - 15) / 0.1) ** 2))
+        gyro[:, 1] = np.minimum(gyro[:, 1] + knock, 4.0)
+    found, std = drawn(replace(clipped, gyro=gyro))
+    assert std == usual and not np.array_equal(found.gyro[:, 0], gyro[:, 0], equal_nan=True)
