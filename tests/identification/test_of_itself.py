@@ -1,5 +1,7 @@
 """Attitudes that a filter made of the gyro itself, as phones give them beside its samples."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.ndimage import gaussian_filter1d
@@ -108,6 +110,15 @@ def test_what_draws_an_attitude_towards_the_force_tells_a_filter_s(made, gain):
 def test_nothing_draws_the_attitude_of_a_camera(seed):
     log = pushed(seed, "camera")
     assert pulled(gyro_trial(log), log) == 0.0
+
+
+def test_rows_of_zeros_have_no_direction_and_no_say():
+    """As a logger writes them before the first sample; numpy's warnings are errors here."""
+    log = pushed(4, "mahony")
+    force = log.accel.copy()
+    force[:50] = 0.0
+    zeros = replace(log, accel=force)
+    assert pulled(gyro_trial(zeros), zeros) == pytest.approx(0.3, rel=0.1)
 
 
 def test_a_filter_s_attitude_in_a_file_of_its_own_is_told():

@@ -115,7 +115,8 @@ def _beside_and_pull(recording: Recording, late: float) -> tuple[np.ndarray, np.
     size = max(round(BLOCK / recording.sample_period), 1)
     first = [k for a, b in recording.segments for k in range(a, b - size, size)]
     rows = np.array(first, dtype=int)[:, None] + np.arange(size + 1)
-    force = recording.accel / np.linalg.norm(recording.accel, axis=1, keepdims=True)
+    with np.errstate(invalid="ignore"):  # rows of zeros, as a logger writes, have no direction
+        force = recording.accel / np.linalg.norm(recording.accel, axis=1, keepdims=True)
     seen = np.isfinite(np.column_stack([q, force, recording.gyro])).all(axis=1)
     rows = rows[seen[rows].all(axis=1)]
     if not len(rows):
