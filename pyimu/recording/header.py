@@ -81,7 +81,9 @@ class Header:
             name.strip() for name, bracket, _ in (h.partition("[") for h in header) if bracket
         }
         self._stated = {c.partition("[")[0].strip() for c in self._cells if "[" in c}
-        self._ours = any(cell.partition("[")[0].strip() in UNITS for cell in self._cells)
+        foreign = bool(self._given - self._stated)
+        said = (c.partition("[")[0].strip() for c in self._cells if "[" in c or not foreign)
+        self._ours = any(name in UNITS for name in said)
         for position, cell in enumerate(header):
             self._add(position, cell)
         self._check()
@@ -139,13 +141,15 @@ class Header:
 
     def _is_replaced(self, position: int, name: str, cell: str) -> bool:
         """Whether a column's own name says no unit, and a map gives the name to another one, or
-        says what the sensor's columns are without it: a magnetometer's, whose unit nobody knows.
+        says what the sensor's columns are without it: a magnetometer's, whose unit nobody knows, a
+        temperature's.
         """
         own = position < len(self._cells) and self._cells[position] == cell
         if not own or cell.strip() != name:
             return False
         mapped = {name for name in self._given if name not in self._stated}
-        return name in self._given or (name in column_names("mag") and bool(mapped))
+        needed = name == "time" or GROUP_OF[name] in ("gyro", "accel")
+        return name in self._given or (not needed and bool(mapped))
 
     def _is_said_otherwise(self, name: str) -> bool:
         """Whether a height counts upward in another column, or an attitude is a quaternion there,

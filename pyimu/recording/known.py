@@ -74,9 +74,12 @@ def _left_out(columns: Sequence[str], at: Sequence[int]) -> Finding:
 
 
 def is_own(header: Sequence[str]) -> bool:
-    """Whether the header is one of a recording of the package, and no other names are beside it."""
+    """Whether the header is one of a recording of the package, and no other names are beside it.
+
+    A ``temperature [degC]`` alone is in many others.
+    """
     own = own_groups(header)
-    if not own:
+    if not own - {"temperature"}:
         return False
     if "time" not in own and any(named(cell).is_time for cell in header):
         return False
@@ -171,7 +174,8 @@ def _xsens(reader: Reader) -> ForeignMap | None:
 
     MT Manager's user manual: ``Acc_X`` m/s^2, ``Gyr_X`` rad/s, the magnetometer in no unit;
     ``SampleTimeFine`` counts 0.1 ms there, in DOT's files 1 us (Xsens DOT user manual, 4.2.5),
-    whose rates are in deg/s. Without it the rate that the comments state gives the times.
+    whose rates are in deg/s. Without it, or where it holds no numbers as in the files of wireless
+    trackers, the rate that the comments state gives the times.
     """
     cells = set(reader.header)
     if not {"Acc_X", "Gyr_X"} <= cells or "PacketCounter" not in cells:
@@ -180,7 +184,7 @@ def _xsens(reader: Reader) -> ForeignMap | None:
     columns = _triad([f"Gyr_{a}" for a in "XYZ"], "gyro", "deg/s" if dot else "rad/s")
     columns |= _triad([f"Acc_{a}" for a in "XYZ"], "accel", "m/s^2")
     scale = {}
-    if "SampleTimeFine" in cells:
+    if "SampleTimeFine" in cells and reader.header.index("SampleTimeFine") in reader.numeric():
         columns["SampleTimeFine"] = "time [count]"
         scale = {"time": Scale(1e-6 if dot else 1e-4, parse("s"))}
     elif reader.rate is None:

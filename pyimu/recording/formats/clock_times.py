@@ -1,5 +1,8 @@
 """Dates and times of day in words of digits: ``2024-02-01T12:00:00.010Z``, ``12:00:00,010``.
 
+A date that ends with its year may have its day first or its month: of ``2/1/2024 12:00:00`` the
+time of day alone counts. Phones write milliseconds behind a third colon, ``12:00:00:010``.
+
 And those that Parquet files and data frames hold as such, with spans of time.
 """
 
@@ -12,8 +15,10 @@ import pyarrow as pa
 import pyarrow.compute as pc
 
 _PATTERN = (
-    r"^\s*(?:(?P<year>\d{4})[-/](?P<month>\d{1,2})[-/](?P<day>\d{1,2})[T ]\s*)?"
-    r"(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2})(?:[.,](?P<part>\d{1,9})\d*)?"
+    r"^\s*(?:(?P<year>\d{4})[-/](?P<month>\d{1,2})[-/](?P<day>\d{1,2})[T ]\s*"
+    r"|\d{1,2}[-/.]\d{1,2}[-/.]\d{4}[T ]\s*)?"
+    r"(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2})"
+    r"(?:[.,](?P<part>\d{1,9})\d*|:(?P<thousandths>\d{3}))?"
     r"\s*(?:Z|UTC|(?P<zone>[-+]\d{2}:?\d{2}))?\s*$"
 )
 
@@ -22,7 +27,7 @@ DAY = 86400
 
 
 def is_clock_time(cell: str) -> bool:
-    """Whether a cell is a date and a time, the year first, or a time of day."""
+    """Whether a cell is a time of day, or that behind a date."""
     return re.match(_PATTERN, cell) is not None
 
 
@@ -44,7 +49,10 @@ class ClockTimes:
         field = {name: found.field(k) for k, name in enumerate(_names(found))}
         known = ~np.asarray(pc.is_null(found))
         hour, minute, second = (_whole(field[n], known) for n in ("hour", "minute", "second"))
-        digits = pc.utf8_rpad(pc.fill_null(field["part"], ""), width=9, padding="0")
+        parts = pc.binary_join_element_wise(
+            *(pc.fill_null(field[name], "") for name in ("part", "thousandths")), ""
+        )
+        digits = pc.utf8_rpad(parts, width=9, padding="0")
         seconds = hour * 3600 + minute * 60 + second - _zone(field["zone"], known)
         days = _days(field, known)
         if known.any() and self._first_day is None:

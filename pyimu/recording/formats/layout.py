@@ -47,9 +47,11 @@ _SEPARATOR = re.compile(r'"?sep=.?"?[,;\t]*', re.I)
 """The first line of a table for a spreadsheet, which says what separates its cells."""
 
 _RATE = re.compile(
-    r"\b(?:update|sampl\w*|output|data)\s*(?:data\s*)?(?:rate|freq\w*)\W{1,4}([\d.]+)\s*(k?)Hz",
+    r"\b(?:(?:update|sampl\w*|output|data)\s*(?:data\s*)?(?:rate|freq\w*)\W{1,4}"
+    r"|date format \S+ at )([\d.]+)\s*(k?)Hz",
     re.I,
 )
+"""Also as the first line of ActiGraph's tables says it."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +125,7 @@ def told_from(head: Sequence[str]) -> Layout:
     """The layout of a table with the first lines ``head``."""
     numbered = [(k, line.rstrip("\r\n")) for k, line in enumerate(head, 1) if line.strip()]
     numbered = numbered[bool(numbered and _SEPARATOR.fullmatch(numbered[0][1])) :]
-    notes = [line for _, line in numbered if is_comment(line)]
+    commented = any(is_comment(line) for _, line in numbered)
     rows = [(k, line) for k, line in numbered if not is_comment(line)]
     form = _form([line for _, line in rows])
     if form is None:
@@ -137,18 +139,25 @@ def told_from(head: Sequence[str]) -> Layout:
     if not named:
         above = [re.sub(r'^("?#|//|%)+\s*', "", line) for k, line in numbered if k < first]
         named = _names_above(above, form, width)
-    names = _names(named, width)
+    whole = [c for _, c in cells[start:] if len(c) == width]
+    names = _names(named, width, _empty(whole, width))
+    notes = [line for k, line in numbered if is_comment(line) or k < first]
     rate = next((_hertz(m) for line in notes[:HEAD] if (m := _RATE.search(line))), None)
     return Layout(
         form.separator,
         form.decimal,
         names or tuple(f"column {k + 1}" for k in range(width)),
         first,
-        bool(notes),
+        commented,
         rate,
         bool(names),
         _clocks([c for _, c in cells[start:]], width),
     )
+
+
+def _empty(rows: Sequence[Sequence[str]], width: int) -> list[int]:
+    """Positions of the columns without anything in them."""
+    return [k for k in range(width) if rows and not any(row[k].strip() for row in rows)]
 
 
 def _clocks(rows: Sequence[Sequence[str]], width: int) -> tuple[int, ...]:
@@ -238,8 +247,11 @@ def _names_above(lines_above: Sequence[str], form: Layout, width: int) -> list[l
     return []
 
 
-def _names(rows: Sequence[Sequence[str]], width: int) -> tuple[str, ...]:
-    """One name for each column of the rows of names, in brackets the unit of a row of units."""
+def _names(rows: Sequence[Sequence[str]], width: int, empty: Sequence[int] = ()) -> tuple[str, ...]:
+    """One name for each column of the rows of names, in brackets the unit of a row of units.
+
+    The columns at ``empty`` have no numbers in the first rows.
+    """
     rows = [_fitted(row, width) for row in rows]
     units = None
     if len(rows) > 1 and _are_units(rows[-1]):
@@ -248,10 +260,23 @@ def _names(rows: Sequence[Sequence[str]], width: int) -> tuple[str, ...]:
     names = [" ".join(filter(None, parts)) for parts in zip(*filled, strict=True)]
     if units is not None:
         names = [
-            f"{name} [{bare(unit)}]" if unit and "[" not in name else name
+            f"{name} [{_unit(unit)}]" if unit and "[" not in name else name
             for name, unit in zip(names, units, strict=True)
         ]
+    names = _nested(names, rows[-1] if rows else [], empty)
     return tuple(_apart(name, k, names) for k, name in enumerate(names))
+
+
+def _nested(names: Sequence[str], last: Sequence[str], empty: Sequence[int]) -> list[str]:
+    """The names, of which one that stands several times is behind that of the ``empty`` column
+    before it: a message whose field ``angular_velocity`` has no cell, and ``x`` behind it one.
+    """
+    found, above = [], ""
+    for k, name in enumerate(names):
+        above = name if k in empty else above
+        nested = above and k not in empty and list(last).count(last[k]) > 1
+        found.append(f"{above}.{name}" if nested else name)
+    return found
 
 
 def _apart(name: str, at: int, names: Sequence[str]) -> str:
@@ -273,8 +298,16 @@ def _fitted(row: Sequence[str], width: int) -> list[str]:
 
 
 def _are_units(row: Sequence[str]) -> bool:
-    filled = [bare(cell) for cell in row if cell]
-    return 2 * len(filled) >= len(row) and all(unit_of(cell) for cell in filled)
+    """Whether most cells of a row are units: Shimmer's has ``local_flux`` and ``no_units``, too."""
+    filled = [_unit(cell) for cell in row if cell]
+    units = [cell for cell in filled if unit_of(cell)]
+    sure = len(units) == len(filled) or any(len(cell) > 1 for cell in units)
+    return 2 * len(filled) >= len(row) and sure and 2 * len(units) > len(filled)
+
+
+def _unit(cell: str) -> str:
+    """A unit without brackets and the mark of a remark behind it, as in Shimmer's ``deg/s*``."""
+    return bare(cell).rstrip("*")
 
 
 def _rightwards(row: Sequence[str]) -> list[str]:

@@ -12,7 +12,7 @@ from pyimu.units import Unit, parse, same_dimension
 
 STRONG = {
     "gyro": {"gyr", "gyro", "gyros", "gyroscope", "omega", "angvel"},
-    "accel": {"acc", "accel", "accelerometer", "acceleration", "gforce"},
+    "accel": {"acc", "acce", "accel", "accl", "accelerometer", "acceleration", "gforce"},
     "mag": {"mag", "magn", "magnetometer", "magnetic"},
 }
 """Words that say what a vector is."""
@@ -27,7 +27,10 @@ WEAK = {"gyro": {"w", "g", "rate", "rates", "pqr"}, "accel": {"a", "f"}, "mag": 
 """Letters and words that may stand for it, where they are the first word of the name."""
 
 TIMES = {"time", "timestamp", "stamp", "t", "ts", "clock"}
-"""Words for times; with ``sampletimefine``, ``seconds`` and ``epoch`` they are many."""
+"""Words for times, behind which a unit of few letters is one."""
+
+MORE_TIMES = {"seconds", "epoch", "epoc", "elapsed", "sampletimefine", "tow", "cts"}
+"""Further ones: ``tow`` is the time of the week of satellites, ``cts`` that of a camera's film."""
 
 TICKS = {"millis": "ms", "micros": "us", "nanos": "ns"}
 """Words for times that say their unit, as Arduino's functions are called."""
@@ -56,6 +59,10 @@ RAW = {"raw"}
 BEHIND = {"cal", "calibrated", "raw"}
 """Words that may stand behind the axis."""
 
+LINEAR = {"linear", "lin", "linacc", "linacce"}
+"""Words for a force without gravity, where one with it is beside it; ROS calls a force so that is
+alone."""
+
 ELSE = {"pos", "position", "vel", "velocity", "speed", "angle", "euler"}
 """Words for vectors that no inertial sensor measures."""
 
@@ -80,10 +87,10 @@ class Name:
 
     @property
     def is_time(self) -> bool:
-        words = set(self.words)
-        return not self.axis and bool(
-            words & (TIMES | {"seconds", "epoch", "sampletimefine", *TICKS})
-        )
+        """Whether it is called a time, and is in no unit that is none of times: ``T(°)``."""
+        if self.axis or (self.unit is not None and self.clock is None):
+            return False
+        return bool(set(self.words) & (TIMES | MORE_TIMES | set(TICKS)))
 
     @property
     def clock(self) -> str | None:
@@ -136,8 +143,14 @@ def _unit(said: str, text: str) -> str | None:
 
 
 def _axis(words: list[str]) -> tuple[str, list[str]]:
-    """The axis, and the words without it."""
+    """The axis, and the words without it.
+
+    A number behind the axis is a sensor's: ``ACC.X 1``.
+    """
+    words = [word for word in words if word not in ("axis", "axes")] if len(words) > 1 else words
     if len(words) > 1 and words[-1] in BEHIND:
+        words = [words[-1], *words[:-1]]
+    if len(words) > 2 and words[-1].isdigit() and words[-2] in ("w", "x", "y", "z"):
         words = [words[-1], *words[:-1]]
     for at in (len(words) - 1, 0):
         if words and 0 <= at < len(words) and words[at] in ("w", "x", "y", "z"):
@@ -231,8 +244,13 @@ def others(header: Sequence[str], taken: Iterable[int]) -> list[tuple[int, int, 
 
 
 def surest(found: Iterable[Triad], group: str) -> tuple[Triad | None, list[Triad]]:
-    """The surest vector of a group, and the others that may be it."""
+    """The surest vector of a group, and the others that may be it.
+
+    A force that is called linear is none of them beside one that is not.
+    """
     own = [triad for triad in found if triad.group == group and triad.score > 0]
+    whole = [triad for triad in own if not set(triad.names[0].words) & LINEAR]
+    own = whole if whole and group == "accel" else own
     return (own[0], own[1:]) if own else (None, [])
 
 

@@ -38,6 +38,9 @@ right unit, and none of a wand that is swung, of fast shifts by hand and of a lo
 FASTEST = 100.0
 """rad/s; hands, vehicles and robots do not turn as fast: larger numbers are degrees a second."""
 
+WARM, WARM_K = (-40.0, 125.0), (233.15, 398.15)
+"""degC and K within which electronics are specified to work."""
+
 WRAP = 0.05
 """How near to a whole turn a step of an angle must come to be one that is counted anew."""
 
@@ -101,6 +104,18 @@ def time_unit(time: np.ndarray) -> UnitGuess:
     return UnitGuess(unit, f"steps of {median:.4g} are {rates[unit]:.4g} Hz then{other}")
 
 
+def warmth_unit(warmth: np.ndarray) -> UnitGuess:
+    """The unit of temperatures (n,) of electronics, degC or K, of which ``WARM`` and ``WARM_K``
+    have nothing in common; whole numbers may be counts.
+    """
+    known = warmth[np.isfinite(warmth)]
+    if len(known) and not counts(known):
+        for unit, (least, most) in (("degC", WARM), ("K", WARM_K)):
+            if least < known.min() and known.max() < most:
+                return UnitGuess(unit, f"they are {known.min():.4g} to {known.max():.4g}")
+    return UnitGuess(None, "degC or K?")
+
+
 def counts(values: np.ndarray) -> bool:
     """Whether all numbers are whole, and not few of them."""
     known = values[np.isfinite(values)]
@@ -113,7 +128,9 @@ def force_unit(force: np.ndarray) -> UnitGuess:
     if size is None:
         return UnitGuess(None, "no quiet part of the log shows gravity")
     for unit, one in (("m/s^2", STANDARD_GRAVITY), ("g", 1.0), ("mg", 1000.0)):
-        if abs(size / one - 1) < NEAR_GRAVITY and not (unit == "mg" and _is_power(size)):
+        if abs(size / one - 1) < NEAR_GRAVITY:
+            if unit == "mg" and _is_power(size) and counts(force.ravel()):
+                continue
             return UnitGuess(unit, f"gravity is {size:.4g} then")
     if counts(force.ravel()) and size > 100:
         whole = 2.0 ** round(np.log2(size))

@@ -36,6 +36,7 @@ from pyimu.recording.guess.numbers import (
     rate_unit,
     resting_size,
     time_unit,
+    warmth_unit,
 )
 from pyimu.units import FREEZING, same_dimension
 
@@ -47,6 +48,13 @@ UNIT_LENGTH = 0.02
 
 EXACT = 1e-5
 """No sensor at rest stays so near to one: what does is written so, such as an attitude at rest."""
+
+SAME_SIZE = 1e-3
+"""By how much the size of a direction of few digits may differ from row to row."""
+
+TURNED = 0.5
+"""How far a vector of one size must go, as a part of it, for its size to be no sensor's: whoever
+turns an accelerometer shakes it too."""
 
 CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
 """Of a column of them."""
@@ -114,7 +122,7 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     for group in ("gyro", "accel", "mag"):
         if picked[group] is not None:
             _vector(found, group, picked[group], numbers, force, period)
-    _temperature(found, reader)
+    _temperature(found, reader, numbers)
     _reference(found, reader, attitudes)
     _angles(found, reader, numbers)
     _place(found, reader)
@@ -170,7 +178,9 @@ def _time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None)
     candidates = []
     for k in at:
         values = Unwrapped().add(numbers.of([k]))
-        if _rises(values):
+        if not names[k].is_time and _counts_rows(values):
+            found.notes.append(f"{reader.header[k]} counts the rows, and is no time")
+        elif _rises(values):
             guess = CLOCK if k in clocks else _time_guess(names[k], values)
             candidates.append((k, values, guess))
     if not candidates:
@@ -189,6 +199,10 @@ def _time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None)
 def _rises(values: np.ndarray) -> bool:
     step = np.diff(values[np.isfinite(values.astype(float))])
     return len(step) > 1 and bool(np.all(step >= 0)) and bool(np.mean(step > 0) > 0.5)
+
+
+def _counts_rows(values: np.ndarray) -> bool:
+    return len(values) > 1 and bool(np.all(np.diff(values.astype(float)) == 1))
 
 
 def _period(values: np.ndarray) -> float:
@@ -245,13 +259,20 @@ def _by_numbers(
     table = numbers.of(at).reshape(-1, len(at))
     column = {k: table[:, i] for i, k in enumerate(at)}
     away = _unit_fours(found, reader, column)
+    away |= {k for k, numbers_of_it in column.items() if _rises(numbers_of_it)}
     runs = [run for run in runs if not set(run) & away]
     values = {tuple(run): np.column_stack([column[k] for k in run]) for run in runs}
     like = [run for run in values if force_unit(values[run]).unit is not None]
+    away |= _directions(found, reader, values, like)
+    values = {run: v for run, v in values.items() if not set(run) & away}
+    like = [run for run in like if run in values]
     if not like:
         return {"accel": None, "gyro": None}
-    accel = min(like, key=lambda run: _scatter(values[run]))
+    home = {_array(cell) for cell in time}
+    accel = min(like, key=lambda r: (_array(reader.header[r[0]]) not in home, _scatter(values[r])))
+    home = {_array(reader.header[accel[0]])}
     rest = [run for run in values if not set(run) & set(accel) and abs(run[0] - accel[0]) % 3 == 0]
+    rest.sort(key=lambda run: _array(reader.header[run[0]]) not in home)
     turning = [r for r in rest if rate_unit(values[r], values[accel], period).unit is not None]
     gyro = next(iter(turning or rest), None)
     names = [named(cell) for cell in reader.header]
@@ -260,6 +281,41 @@ def _by_numbers(
         picked["gyro"] = [(k, names[k]) for k in gyro]
     found.notes.append("accelerometer and gyro were told by their numbers alone: look at them")
     return picked
+
+
+def _array(cell: str) -> str:
+    """The array of a file of arrays whose column a ``cell`` is; of a table's it is none."""
+    return cell.rpartition("[")[0]
+
+
+def _directions(
+    found: Proposal,
+    reader: Reader,
+    values: Mapping[tuple[int, ...], np.ndarray],
+    like: Sequence[tuple[int, ...]],
+) -> set[int]:
+    """Positions in those of the vectors ``like`` a force that keep one size however they turn.
+
+    So does the direction of gravity that a phone's filter makes; that it is left out is noted.
+    """
+    away: set[int] = set()
+    for run in like:
+        if not set(run) & away and _is_direction(values[run]):
+            away |= set(run)
+            cells = ", ".join(reader.header[k] for k in run)
+            found.notes.append(
+                f"{cells} are left out: they turn and keep their size, as the direction of gravity "
+                "that a filter makes does; an accelerometer is shaken too"
+            )
+    return away
+
+
+def _is_direction(vector: np.ndarray) -> bool:
+    known = vector[np.all(np.isfinite(vector), axis=1)]
+    size = np.linalg.norm(known, axis=1)
+    middle = float(np.median(size)) if len(size) else 0.0
+    steady = bool(middle) and float(np.max(np.abs(size - middle))) < SAME_SIZE * middle
+    return steady and float(np.max(np.ptp(known, axis=0))) > TURNED * middle
 
 
 def _unit_fours(found: Proposal, reader: Reader, column: Mapping[int, np.ndarray]) -> set[int]:
@@ -387,13 +443,16 @@ def _field_unit(values: np.ndarray) -> UnitGuess:
     return UnitGuess(None, f"the field is {size:.3g}, in no usual unit")
 
 
-def _temperature(found: Proposal, reader: Reader) -> None:
+def _temperature(found: Proposal, reader: Reader, numbers: Numbers) -> None:
     names = [named(cell) for cell in reader.header]
     warm = [n for n in names if n.is_temperature and not set(n.words) & DERIVED]
     if len(warm) == 1:
         unit = warm[0].unit if warm[0].unit in FREEZING else None
-        said = f"the header says {warm[0].said}" if unit else "degC or K?"
-        found.add([Guess(warm[0].cell, "temperature", unit, said)])
+        guess = UnitGuess(unit, f"the header says {warm[0].said}")
+        at = found.header.index(warm[0].cell)
+        if unit is None and at in numbers.positions:
+            guess = warmth_unit(numbers.of([at]))
+        found.add([Guess(warm[0].cell, "temperature", guess.unit, guess.why)])
 
 
 def _own(found: Proposal, reader: Reader) -> None:
