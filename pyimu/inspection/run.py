@@ -14,13 +14,13 @@ from pyimu.recording.column_map import ForeignMap, map_of
 from pyimu.recording.columns import own_name
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.formats.split_time import with_one_time
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.proposal import forces, proposed
 from pyimu.recording.guess.writing import MapGiven, text_of
 from pyimu.recording.known import STATED, is_own, recognised
 from pyimu.recording.log import Log
+from pyimu.recording.made import with_made_columns
 from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
@@ -52,7 +52,7 @@ def inspect(
             foreign = whole.foreign
     say("looking at the columns")
     readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
-    readers, foreign = _with_one_time(readers, foreign)
+    readers, foreign = _with_made_columns(readers, foreign)
     known = None if foreign is not None else recognised(readers[0])
     maps = [_own_map(reader, foreign, index) for index, reader in enumerate(readers)]
     kind = _kind(readers[0], known is not None, foreign is not None)
@@ -87,15 +87,15 @@ def inspect(
     )
 
 
-def _with_one_time(
+def _with_made_columns(
     readers: Sequence[Reader], foreign: ForeignMap | None
 ) -> tuple[list[Reader], ForeignMap | None]:
-    """The readers, with one time where it stands in two columns, and the map with that."""
-    first, own = with_one_time(readers[0], foreign or ForeignMap())
+    """The readers, with the columns that are made of two, and the map with the time of them."""
+    first, own = with_made_columns(readers[0], foreign or ForeignMap())
     files, others = dict(own.files), []
     for reader in readers[1:]:
         name = reader.path.name
-        other, its = with_one_time(reader, files.get(name, ForeignMap()))
+        other, its = with_made_columns(reader, files.get(name, ForeignMap()))
         others.append(other)
         if name in files:
             files[name] = its

@@ -192,6 +192,12 @@ class Header:
 
     def _check(self) -> None:
         if "time" not in self.names:
+            if self._crowded and {"gyro_x", "accel_x"} & set(self.names):
+                raise UserError(
+                    f"{self.path}: nothing tells when its samples were taken; say the rate in a "
+                    'column map (TOML): sample_rate = {value = ..., unit = "Hz"}, alone in it',
+                    "" if self._in_memory else ", and give that as --columns",
+                )
             raise UserError(
                 f"{self.path}: not a recording, the header has no 'time [s]' column{self._way()}",
                 self._inspected(),

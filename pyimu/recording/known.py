@@ -12,12 +12,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from pyimu.errors import Finding
+from pyimu.recording.apple import core_motion, sensor_log
 from pyimu.recording.column_map import BODY, ForeignMap
 from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.oxts import CLOCK, TIME, is_oxts
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.names import DERIVED, TRUTHS, named, others, surest, triads
+from pyimu.recording.messages import imu_message
+from pyimu.recording.vectors import triad_map, unnamed
 from pyimu.units import parse
 
 STATED = "a table that states its units"
@@ -92,10 +95,6 @@ def own_groups(header: Sequence[str]) -> set[str]:
     return {GROUP_OF[name] for cell in header if (name := own_name(cell)) is not None}
 
 
-def _triad(names: Sequence[str], group: str, unit: str) -> dict[str, str]:
-    return {name: f"{group}_{a} [{unit}]" for name, a in zip(names, XYZ, strict=True)}
-
-
 def _euroc(reader: Reader) -> ForeignMap | None:
     """EuRoC MAV and TUM VI: imu0/data.csv, and the ground truth beside it.
 
@@ -108,8 +107,8 @@ def _euroc(reader: Reader) -> ForeignMap | None:
         return None
     columns = {time: "time [ns]"}
     if all(f"w_RS_S_{a}" in cells and f"a_RS_S_{a}" in cells for a in XYZ):
-        columns |= _triad([cells[f"w_RS_S_{a}"] for a in XYZ], "gyro", "rad/s")
-        columns |= _triad([cells[f"a_RS_S_{a}"] for a in XYZ], "accel", "m/s^2")
+        columns |= triad_map([cells[f"w_RS_S_{a}"] for a in XYZ], "gyro", "rad/s")
+        columns |= triad_map([cells[f"a_RS_S_{a}"] for a in XYZ], "accel", "m/s^2")
         return ForeignMap(columns=columns)
     if all(f"q_RS_{a}" in cells for a in "wxyz"):
         columns |= {cells[f"q_RS_{a}"]: f"ref_q_{a} [1]" for a in "wxyz"}
@@ -131,8 +130,8 @@ def _tum_text(reader: Reader) -> ForeignMap | None:
     cells = reader.header
     return ForeignMap(
         columns={cells[0]: "time [ns]"}
-        | _triad(cells[1:4], "gyro", "rad/s")
-        | _triad(cells[4:7], "accel", "m/s^2")
+        | triad_map(cells[1:4], "gyro", "rad/s")
+        | triad_map(cells[4:7], "accel", "m/s^2")
     )
 
 
@@ -146,8 +145,8 @@ def _repoimu(reader: Reader) -> ForeignMap | None:
     if "Time (s)" not in cells or "Vicon Orientation W" not in cells:
         return None
     columns = {"Time (s)": "time [s]"}
-    columns |= _triad([f"IMU Gyroscope {a}" for a in "XYZ"], "gyro", "rad/s")
-    columns |= _triad([f"IMU Acceleration {a}" for a in "XYZ"], "accel", "m/s^2")
+    columns |= triad_map([f"IMU Gyroscope {a}" for a in "XYZ"], "gyro", "rad/s")
+    columns |= triad_map([f"IMU Acceleration {a}" for a in "XYZ"], "accel", "m/s^2")
     columns |= {f"Vicon Orientation {a}": f"ref_q_{a.lower()} [1]" for a in "WXYZ"}
     return ForeignMap(columns=columns) if set(columns) <= cells else None
 
@@ -159,9 +158,9 @@ def _broad(reader: Reader) -> ForeignMap | None:
     cells = set(reader.header)
     if not {"imu_gyr[0]", "imu_acc[0]"} <= cells:
         return None
-    columns = _triad([f"imu_gyr[{k}]" for k in range(3)], "gyro", "rad/s")
-    columns |= _triad([f"imu_acc[{k}]" for k in range(3)], "accel", "m/s^2")
-    columns |= _triad([f"imu_mag[{k}]" for k in range(3)], "mag", "uT")
+    columns = triad_map([f"imu_gyr[{k}]" for k in range(3)], "gyro", "rad/s")
+    columns |= triad_map([f"imu_acc[{k}]" for k in range(3)], "accel", "m/s^2")
+    columns |= triad_map([f"imu_mag[{k}]" for k in range(3)], "mag", "uT")
     columns |= {f"opt_quat[{k}]": f"ref_q_{a} [1]" for k, a in enumerate("wxyz")}
     where = enumerate(("ref_east", "ref_north", "ref_up"))
     columns |= {f"opt_pos[{k}]": f"{name} [m]" for k, name in where}
@@ -181,8 +180,8 @@ def _xsens(reader: Reader) -> ForeignMap | None:
     if not {"Acc_X", "Gyr_X"} <= cells or "PacketCounter" not in cells:
         return None
     dot = "Quat_W" in cells or "dq_W" in cells or "Euler_X" in cells
-    columns = _triad([f"Gyr_{a}" for a in "XYZ"], "gyro", "deg/s" if dot else "rad/s")
-    columns |= _triad([f"Acc_{a}" for a in "XYZ"], "accel", "m/s^2")
+    columns = triad_map([f"Gyr_{a}" for a in "XYZ"], "gyro", "deg/s" if dot else "rad/s")
+    columns |= triad_map([f"Acc_{a}" for a in "XYZ"], "accel", "m/s^2")
     scale = {}
     if "SampleTimeFine" in cells and reader.header.index("SampleTimeFine") in reader.numeric():
         columns["SampleTimeFine"] = "time [count]"
@@ -190,19 +189,6 @@ def _xsens(reader: Reader) -> ForeignMap | None:
     elif reader.rate is None:
         return None
     return ForeignMap(columns=columns, scale=scale) if set(columns) <= cells else None
-
-
-def _rostopic(reader: Reader) -> ForeignMap | None:
-    """``rostopic echo -p`` of sensor_msgs/Imu: stamps in ns, rad/s and m/s^2 by the message's
-    definition.
-
-    ``%time``, at which the message came, is left out for the sensor's own stamp, and the
-    orientation, an estimate.
-    """
-    columns = {"field.header.stamp": "time [ns]"}
-    columns |= _triad([f"field.angular_velocity.{a}" for a in XYZ], "gyro", "rad/s")
-    columns |= _triad([f"field.linear_acceleration.{a}" for a in XYZ], "accel", "m/s^2")
-    return ForeignMap(columns=columns) if set(columns) <= set(reader.header) else None
 
 
 def _phone(reader: Reader) -> ForeignMap | None:
@@ -215,7 +201,7 @@ def _phone(reader: Reader) -> ForeignMap | None:
         return None
     for ending, (group, unit) in PHONE_FILES.items():
         if reader.path.name.casefold().endswith(f"{ending}.csv".casefold()):
-            return ForeignMap(columns={"time": "time [ns]"} | _triad(XYZ, group, unit))
+            return ForeignMap(columns={"time": "time [ns]"} | triad_map(XYZ, group, unit))
     return None
 
 
@@ -223,11 +209,11 @@ def _nclt_imu(reader: Reader) -> ForeignMap | None:
     """NCLT's ``ms25.csv`` (Carlevaris-Bianco et al. 2016): a table without names, times in us since
     1970, field in gauss, m/s^2, rad/s, forward-right-down.
     """
-    cells = _unnamed(reader, "ms25", 10)
+    cells = unnamed(reader, "ms25", 10)
     if cells is None:
         return None
-    columns = {cells[0]: "time [us]"} | _triad(cells[1:4], "mag", "gauss")
-    columns |= _triad(cells[4:7], "accel", "m/s^2") | _triad(cells[7:10], "gyro", "rad/s")
+    columns = {cells[0]: "time [us]"} | triad_map(cells[1:4], "mag", "gauss")
+    columns |= triad_map(cells[4:7], "accel", "m/s^2") | triad_map(cells[7:10], "gyro", "rad/s")
     return ForeignMap(columns=columns, body=BODY["frd"])
 
 
@@ -235,21 +221,12 @@ def _nclt_truth(reader: Reader) -> ForeignMap | None:
     """NCLT's ``groundtruth_DATE.csv``: times in us, north, east and down m, roll, pitch and heading
     rad of a body forward-right-down.
     """
-    cells = _unnamed(reader, "groundtruth", 7)
+    cells = unnamed(reader, "groundtruth", 7)
     if cells is None:
         return None
     targets = ("ref_north [m]", "ref_east [m]", "ref_down [m]", *(f"{a} [rad]" for a in ANGLES))
     columns = dict(zip(cells, ("time [us]", *targets), strict=True))
     return ForeignMap(columns=columns, body=BODY["frd"], world="ned")
-
-
-def _unnamed(reader: Reader, word: str, width: int) -> list[str] | None:
-    """The cells of a table of so many columns without names, in a file whose name has a ``word``;
-    None of any other.
-    """
-    bare = all(re.fullmatch(r"column \d+", cell) for cell in reader.header)
-    name = reader.path.name.casefold()
-    return reader.header if bare and len(reader.header) == width and word in name else None
 
 
 def _oxts(reader: Reader) -> ForeignMap | None:
@@ -259,8 +236,8 @@ def _oxts(reader: Reader) -> ForeignMap | None:
     if not is_oxts(reader):
         return None
     columns = {TIME: f"time [{CLOCK}]", "lat": "latitude [deg]"}
-    columns |= _triad(["wx", "wy", "wz"], "gyro", "rad/s")
-    columns |= _triad(["ax", "ay", "az"], "accel", "m/s^2")
+    columns |= triad_map(["wx", "wy", "wz"], "gyro", "rad/s")
+    columns |= triad_map(["ax", "ay", "az"], "accel", "m/s^2")
     return ForeignMap(columns=columns)
 
 
@@ -291,7 +268,9 @@ FORMATS = (
     ("RepoIMU, by its description", _repoimu),
     ("BROAD, by its description", _broad),
     ("Xsens, by its manuals", _xsens),
-    ("rostopic echo -p, by the message's definition", _rostopic),
+    ("ROS's sensor_msgs/Imu, by the message's definition", imu_message),
+    ("SensorLog, by its header", sensor_log),
+    ("Core Motion, by its documentation", core_motion),
     ("Sensor Logger, by its documentation", _phone),
     ("NCLT's inertial unit, by its description", _nclt_imu),
     ("NCLT's ground truth, by its description", _nclt_truth),
@@ -331,7 +310,7 @@ def stated(reader: Reader) -> ForeignMap | None:
         if needed and (triad.unit is None or rivals or triad.score < 4):
             return None
         if triad.unit is not None and not rivals:
-            columns |= _triad([name.cell for name in triad.names], group, triad.unit)
+            columns |= triad_map([name.cell for name in triad.names], group, triad.unit)
     warm = [n for n in names if n.is_temperature and n.unit in WARM and not set(n.words) & DERIVED]
     if len(warm) == 1 and "temperature" not in own:
         columns[warm[0].cell] = f"temperature [{warm[0].unit}]"

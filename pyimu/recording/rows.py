@@ -20,11 +20,11 @@ from pyimu.recording.counter import BITS, NEARLY, Unwrapped
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.formats.split_time import with_one_time
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.formats.timed import TIME, TimedReader
 from pyimu.recording.header import Header
 from pyimu.recording.known import left_out, merged, recognised, said
+from pyimu.recording.made import with_made_columns
 from pyimu.recording.quality.tally import Tally
 from pyimu.recording.waking import Waking
 
@@ -92,7 +92,7 @@ class Source:
         """What ``reader`` has opened. Raises UserError as ``open`` does."""
         findings: tuple[Finding, ...] = ()
         is_known = False
-        reader, foreign = with_one_time(reader, foreign)
+        reader, foreign = with_made_columns(reader, foreign)
         if not foreign.columns:
             known = recognised(reader, wanted)
             if known is not None:

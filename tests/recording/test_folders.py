@@ -4,13 +4,16 @@ import numpy as np
 import pytest
 import raw_logs
 from log_folders import (
+    APPLE,
     FILES,
     FOLDERS,
     TRUTH,
     android_uncalibrated,
+    core_motion,
     ios_total,
     phone_gyro,
     phyphox_field,
+    sensor_log,
     sequence,
     xsens_dot,
 )
@@ -42,6 +45,47 @@ def test_samples_come_back_from_each_layout(make, tmp_path):
         np.testing.assert_allclose(found.accel, accel, rtol=0, atol=0)
     has_field = make in (android_uncalibrated, ios_total, phyphox_field)
     assert (found.mag is not None) == has_field
+
+
+@pytest.mark.parametrize("make", APPLE, ids=lambda make: make.__name__)
+def test_the_force_of_apples_phones_is_whole_and_of_the_right_sign(make, tmp_path):
+    """In g, split into gravity and the rest, or with the other sign; the gyro's own stamps."""
+    time, gyro, accel = log = raw_logs.still(300)
+    path = make(tmp_path, log)
+    found = read_recording(path)
+    np.testing.assert_array_equal(found.gyro, gyro)
+    # of a sum of two parts about 1 g each is rounded once more
+    np.testing.assert_allclose(found.accel, accel, rtol=0, atol=8e-15)
+    # seconds since 1000 s are known to 1e-13 s
+    np.testing.assert_allclose(found.time - found.time[0], time * 1e-9, rtol=0, atol=4e-13)
+    assert found.time[0] == 1000.0
+    (said,) = [f for f in found.findings if f.kind == "recognised"]
+    assert ("SensorLog" if make is sensor_log else "Core Motion") in said.detail["as"]
+    whole = inspect(path)
+    assert not whole.problem
+    np.testing.assert_array_equal(whole.recording.accel, found.accel)
+
+
+def test_core_motion_without_times_takes_a_rate_alone(tmp_path):
+    path = core_motion(tmp_path, raw_logs.still(300))
+    rows = path.read_text().splitlines()
+    rows = [row.partition(",")[2] for row in rows]
+    path.write_text("\n".join([f",{rows[0]}", *(f"{k},{r}" for k, r in enumerate(rows[1:]))]))
+    with pytest.raises(UserError, match="nothing tells when its samples were taken.*sample_rate"):
+        read_recording(path)
+    (tmp_path / "map.toml").write_text('sample_rate = {value = 50, unit = "Hz"}')
+    found = read_recording(path, tmp_path / "map.toml")
+    assert found.sample_rate == pytest.approx(50.0) and found.accel[:, 2].min() > 9.7
+
+
+def test_a_gravity_in_other_units_is_not_put_together(tmp_path):
+    """Android's is in m/s^2, and has the other sign than Apple's."""
+    path = core_motion(tmp_path, raw_logs.still(300))
+    head, *rows = path.read_text().splitlines()
+    cells = [row.split(",") for row in rows]
+    scaled = [[repr(9.8 * float(c)) if 4 <= k < 7 else c for k, c in enumerate(r)] for r in cells]
+    path.write_text("\n".join([head, *map(",".join, scaled)]))
+    assert not any(cell.startswith("force of") for cell in inspect(path).proposals[0].header)
 
 
 @pytest.mark.parametrize("truth", TRUTHS)

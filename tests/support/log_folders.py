@@ -132,7 +132,72 @@ def kitti_drive(folder, log):
     return folder / "drive_0001"
 
 
+def _parts(log):
+    """Gravity and the acceleration without it as Core Motion has them, in g."""
+    force = -log[2] / 9.80665
+    gravity = force / np.linalg.norm(force, axis=1)[:, None]
+    return gravity, force - gravity
+
+
+def sensor_log(folder, log):
+    """SensorLog on iOS: the raw accelerometer in g with Apple's sign, and Core Motion beside it."""
+    time, gyro, accel = log
+    gravity, user = _parts(log)
+    seconds = 1000 + time * 1e-9
+    vectors = [("gyroRotation", "rad/s", gyro), ("motionRotationRate", "rad/s", gyro + 0.01)]
+    vectors += [("motionUserAcceleration", "G", user), ("motionGravity", "G", gravity)]
+    vectors.append(("accelerometerAcceleration", "G", -accel / 9.80665))
+    names = [f"{n}Timestamp_sinceReboot(s)" for n in ("motion", "accelerometer", "gyro")]
+    names += [f"{n}{a}({unit})" for n, unit, _ in vectors for a in "XYZ"]
+    columns = [seconds - 0.002, seconds - 0.004, seconds, *np.hstack([v for *_, v in vectors]).T]
+    return text(folder / "sensorlog.csv", [",".join(names)], columns)
+
+
+def core_motion(folder, log):
+    """CMDeviceMotion as apps write it: gravity and the acceleration without it."""
+    names = ["timestamp"] + [f"attitude.{n}" for n in ("roll", "pitch", "yaw")]
+    vectors = ("gravity", "rotationRate", "userAcceleration")
+    names += [f"{n}.{a}" for n in vectors for a in AXES]
+    gravity, user = _parts(log)
+    columns = [1000 + log[0] * 1e-9, *np.zeros((3, len(user)))]
+    columns += [*gravity.T, *log[1].T, *user.T]
+    return text(folder / "motion.csv", [",".join(names)], columns)
+
+
+def oxiod(folder, log):
+    """OxIOD's imu1.csv: sixteen columns without names."""
+    gravity, user = _parts(log)
+    columns = [1000 + log[0] * 1e-9, *np.zeros((3, len(user))), *log[1].T]
+    columns += [*gravity.T, *user.T, *np.tile([20.0, 0.0, -40.0], (len(user), 1)).T]
+    return text(folder / "imu1.csv", [], columns)
+
+
+def bag_table(folder, log):
+    """A bag as bagpy writes it: the message's fields, the stamp in seconds and ns."""
+    time, gyro, accel = log
+    stamps = time + FIRST
+    names = ["Time", "header.seq", "header.stamp.secs", "header.stamp.nsecs", "header.frame_id"]
+    names += [f"{n}.{a}" for n in ("angular_velocity", "linear_acceleration") for a in AXES]
+    columns = [stamps * 1e-9, np.arange(len(time)), stamps // 10**9, stamps % 10**9]
+    rows = zip(*columns, ["imu_link"] * len(time), *gyro.T, *accel.T, strict=True)
+    lines = [",".join(c if isinstance(c, str) else repr(c.item()) for c in row) for row in rows]
+    (folder / "imu-data.csv").write_text("\n".join([",".join(names), *lines]) + "\n")
+    return folder / "imu-data.csv"
+
+
+def plotjuggler(folder, log):
+    """PlotJuggler's table: seconds, and slashes between the fields."""
+    time, gyro, accel = log
+    vectors = [f"angular_velocity/{a}" for a in AXES] + [f"linear_acceleration/{a}" for a in AXES]
+    names = ["__time", *(f"/imu/data/{n}" for n in ("header/stamp", *vectors))]
+    seconds = 1_000_000.5 + time * 1e-9
+    return text(
+        folder / "juggled.csv", [",".join(names)], [seconds + 0.002, seconds, *gyro.T, *accel.T]
+    )
+
+
 FOLDERS = (android_uncalibrated, ios_total, phyphox_field, euroc_sequence)
-FILES = (xsens_fine, xsens_dot, phone_gyro)
-OTHERS = (nclt_imu, nclt_truth, kitti_drive)
+FILES = (xsens_fine, xsens_dot, phone_gyro, bag_table, plotjuggler)
+APPLE = (sensor_log, core_motion, oxiod)
+OTHERS = (nclt_imu, nclt_truth, kitti_drive, *APPLE)
 """Layouts of which tests of their own say what is in them."""
