@@ -117,12 +117,42 @@ def test_a_row_may_begin_with_a_missing_value(tmp_path):
     assert len(found) == 300 and np.flatnonzero(np.isnan(found.gyro[:, 0])).tolist() == [200]
 
 
-@pytest.mark.parametrize("wrong", ["1.49,0.1", "lost sync", "1.49,0.1,0.2,0.3,0.4"])
-def test_other_lines_between_rows_are_refused(wrong, tmp_path):
+WRONG = ["1.49,0.1", "lost sync", "1.49,0.1,0.2,0.3,0.4", '1.49,"0,1",0.2']
+
+
+@pytest.mark.parametrize("wrong", WRONG)
+def test_other_lines_between_rows_are_refused_where_they_are_many(wrong, tmp_path):
+    """More than one in a hundred."""
     with pytest.raises(UserError, match=r"row 152: \d cells, expected 4"):
-        read(tmp_path, [HEAD, *ROWS[:150], wrong, *ROWS[150:]])
+        read(tmp_path, [HEAD, *ROWS[:150], *[wrong] * 4, *ROWS[150:]])
     with pytest.raises(UserError, match=r"row 302: \d cells, expected 4"):
         read(tmp_path, [HEAD, *ROWS, *["a remark"] * 21])
+
+
+@pytest.mark.parametrize("end", ["", "3.00,0.1,0"])
+@pytest.mark.parametrize("separator", [",", "\t"])
+@pytest.mark.parametrize("wrong", WRONG)
+def test_few_broken_lines_between_rows_are_left_out(wrong, separator, end, tmp_path):
+    """As a serial line makes them; rows behind them keep their times, and their places."""
+    lines = [HEAD, *ROWS[:150], wrong, *ROWS[150:200], wrong, *ROWS[200:], end]
+    found = read(tmp_path, [line.replace(",", separator) for line in lines])
+    np.testing.assert_array_equal(found.gyro, read(tmp_path, [HEAD, *ROWS]).gyro)
+    (said,) = of_kind(found, "rows_left_out")
+    assert (said.count, said.detail) == (2 + bool(end), {"first_row": 152})
+    lines[250] = lines[250].replace("0.3", "0.x")
+    with pytest.raises(UserError, match=r"row 251, column gyro_z .*'0.x' is not a number"):
+        read(tmp_path, lines)
+
+
+def test_a_lost_row_is_a_gap_and_of_a_log_without_times_an_error(tmp_path):
+    broken = [*ROWS[:150], "1.50,0.1", *ROWS[151:]]
+    found = read(tmp_path, [HEAD, *broken])
+    assert len(found) == 299 and len(found.segments) == 2
+    (tmp_path / "m.toml").write_text(
+        'sample_rate = {value = 100, unit = "Hz"}\n[columns]\n"time [s]" = "clock"\n'
+    )
+    with pytest.raises(UserError, match="row 152 is no whole row, and none can be left out"):
+        read_recording(tmp_path / "log.csv", tmp_path / "m.toml")
 
 
 # Dates and times of day

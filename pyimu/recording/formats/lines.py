@@ -6,7 +6,7 @@ import codecs
 import gzip
 import io
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
@@ -147,12 +147,20 @@ class Recoded(io.RawIOBase):
 class Body:
     """The bytes of a table from its line ``first`` (from 1) to before ``stop``, in whole lines.
 
-    Lines of comment are left out. Where ``blanks`` separate the columns, a run of them becomes one.
+    Lines of comment are left out, and those that are not ``whole``, where that is asked. Where
+    ``blanks`` separate the columns, a run of them becomes one.
     Lines longer than ``LONGEST`` are cut, for the reader behind to complain.
     """
 
-    def __init__(self, stream: BinaryIO, first: int, stop: int | None, blanks: bool) -> None:
-        self._stream, self._blanks = stream, blanks
+    def __init__(
+        self,
+        stream: BinaryIO,
+        first: int,
+        stop: int | None,
+        blanks: bool,
+        whole: Callable[[bytes], bool] | None = None,
+    ) -> None:
+        self._stream, self._blanks, self._whole = stream, blanks, whole
         self._left = None if stop is None else stop - first
         for _ in range(first - 1):
             stream.readline(LONGEST)
@@ -177,7 +185,7 @@ class Body:
 
     def _cleaned(self, block: bytes) -> bytes:
         commented = block.startswith(_MARKS) or any(b"\n" + mark in block for mark in _MARKS)
-        if not commented and not self._blanks:
+        if not commented and not self._blanks and self._whole is None:
             return block
         kept = block.split(b"\n")
         if commented:
@@ -186,4 +194,6 @@ class Body:
             ]
         if self._blanks:
             kept = [b" ".join(line.split()) for line in kept]
+        if self._whole is not None:
+            kept = list(filter(self._whole, kept))
         return b"\n".join(kept)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
@@ -23,19 +24,25 @@ LAST = 20
 """Lines behind the last whole row, at most, that are no rows: one cut off, and remarks. With more
 of them the table is not what it was taken for."""
 
+BROKEN = 0.01
+"""Share of the rows that may be no whole ones, as where a line to a serial port lost letters; with
+more of them the table is not what it was taken for."""
+
 
 @dataclass(frozen=True)
 class CsvReader(Reader):
     """A table in text, plain or gzipped, as ``layout`` says; ``header`` are its columns' names.
 
     Lines of comment are left out wherever they stand, and lines at the end that are no whole rows:
-    a logger that lost its power leaves one, others write a last remark.
+    a logger that lost its power leaves one, others write a last remark. So are few rows of another
+    length between whole ones (``BROKEN``).
     """
 
     path: Path
     header: list[str]
     layout: Layout = field(default_factory=Layout)
     _ended: list[Finding] = field(default_factory=list, compare=False, repr=False)
+    _broken: list[Finding] = field(default_factory=list, compare=False, repr=False)
 
     @classmethod
     def open(cls, path: Path) -> CsvReader:
@@ -60,8 +67,8 @@ class CsvReader(Reader):
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
         """``long`` is int64 where its numbers need it.
 
-        Raises UserError, with row and column, for a cell that is no number and for a row of another
-        length that whole rows follow.
+        Raises UserError, with row and column, for a cell that is no number and for rows of another
+        length that whole rows follow, where these are not few.
         """
         if self._first_row() is None:
             return
@@ -85,11 +92,12 @@ class CsvReader(Reader):
                     yield batch, share
                 return
             except (pa.ArrowException, OSError) as error:
+                known = len(self._broken)
                 end = self._explain(positions, done)
-                if cleaned and end == stop:
+                if cleaned and end == stop and known == len(self._broken):
                     reason = (str(error).splitlines() or [type(error).__name__])[0]
                     raise UserError(f"{self.path}: cannot be read as CSV ({reason})") from None
-            # A comment was between the rows, the first of this log, or its end is none.
+            # A comment was between the rows, the first of this log, or a row was none, or its end.
             cleaned, stop = True, end
             first = next((row for row, _ in islice(self._lines(), done, None)), None)
             if first is None or (stop is not None and first >= stop):
@@ -120,7 +128,8 @@ class CsvReader(Reader):
         read = pacsv.ReadOptions(column_names=names, use_threads=False)
         size = max(self.path.stat().st_size, 1)
         with opened(self.path) as (stream, raw):
-            for block in Body(stream, first, stop, self.layout.separator == " ").blocks():
+            whole = self._is_row if self._broken else None
+            for block in Body(stream, first, stop, self.layout.separator == " ", whole).blocks():
                 table = pacsv.read_csv(_held_by_arrow(block), read, parse, convert)
                 for batch in table.to_batches():
                     yield batch, raw.tell() / size
@@ -139,8 +148,8 @@ class CsvReader(Reader):
                 yield batch, 1.0 if raw.closed else raw.tell() / size
 
     def at_end(self) -> tuple[Finding, ...]:
-        """That the last lines were left out."""
-        return tuple(self._ended)
+        """That the last lines were left out, and rows between whole ones."""
+        return (*self._broken, *self._ended)
 
     def count(self, long: int) -> None:
         return None
@@ -170,7 +179,9 @@ class CsvReader(Reader):
         layout = self.layout
         for number, line in enumerate(lines(self.path), 1):
             if number >= layout.first and line.strip() and not is_comment(line):
-                yield number, line.rstrip("\r\n")
+                line = line.rstrip("\r\n")
+                if not self._broken or len(layout.cells(line)) == len(self.header):
+                    yield number, line
 
     def _first_row(self) -> list[str] | None:
         return next(self._rows(), (0, None))[1]
@@ -187,7 +198,8 @@ class CsvReader(Reader):
         """Raise UserError for the first wrong cell or row after ``good`` rows.
 
         A cell is wrong where it is not a number, a row where it is too long or too short and whole
-        rows follow. Gives the row from which on none does, None where there is none.
+        rows follow, which are not many times as many. Gives the row from which on none does, None
+        where there is none.
         """
         rows = islice(self._lines(), good, None)
         for number, (row, line) in enumerate(rows, good):
@@ -199,6 +211,8 @@ class CsvReader(Reader):
                     return row
                 if self.layout.is_open(line):
                     raise UserError(f"{self.path}: row {row}: {UNCLOSED}")
+                if number and self._are_few_broken(row):
+                    return None
                 raise UserError(
                     f"{self.path}: row {row}: {len(cells)} cells, expected {len(self.header)} as "
                     f"in {'the header' if self.layout.named else 'the others'}"
@@ -210,6 +224,24 @@ class CsvReader(Reader):
                     place = f"{self.path}: row {row}, column {self.header[position]}"
                     raise UserError(f"{place}: '{cells[position]}' is not a number")
         return None
+
+    def _are_few_broken(self, first: int) -> bool:
+        """Whether the rows of another length are few; that they are left out is among the findings
+        then. ``first`` is the row of the first of them.
+        """
+        width = len(self.header)
+        lengths = Counter(len(self.layout.cells(line)) == width for _, line in self._lines())
+        if lengths[False] > BROKEN * lengths[True]:
+            return False
+        self._broken[:] = [Finding("rows_left_out", "", lengths[False], {"first_row": first})]
+        return True
+
+    def _is_row(self, line: bytes) -> bool:
+        """Whether a line has a cell for each column; blank ones are the parser's to leave out."""
+        separator, width = self.layout.separator.encode(), len(self.header)
+        if b'"' in line:
+            return len(self.layout.cells(line.decode("utf-8", "replace"))) == width
+        return not line.strip() or line.rstrip(b"\r").count(separator) == width - 1
 
     def _is_whole(self, line: str) -> bool:
         """Whether a line has a cell for each column, or more."""

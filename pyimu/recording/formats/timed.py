@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyimu.errors import Finding
+from pyimu.errors import Finding, UserError
 from pyimu.recording.formats.reader import Columns, Reader, ReaderOver
 
 TIME = "time [s]"
@@ -38,10 +38,21 @@ class TimedReader(ReaderOver):
         done = 0
         for columns, share in self.reader.batches(theirs, theirs[0] if theirs else 0):
             rows = len(columns[0])
+            self._check()
             found = dict(zip(theirs, columns, strict=True))
             found[own] = np.arange(done, done + rows) / self.hertz
             done += rows
             yield [np.asarray(found[p], dtype=float) for p in positions], share
+
+    def _check(self) -> None:
+        """Raise UserError where a row was left out: those behind it would be early by a period."""
+        for finding in self.reader.at_end():
+            if finding.kind == "rows_left_out":
+                row, count = finding.detail["first_row"], finding.count
+                raise UserError(
+                    f"{self.path}: row {row} is no whole row{f', one of {count}' * (count > 1)}, "
+                    "and none can be left out of a log without times: mend it"
+                )
 
     def count(self, long: int) -> int | None:
         names = [k for k, name in enumerate(self.reader.header) if "gyr" in name or "acc" in name]
