@@ -48,6 +48,13 @@ class AttitudeError:
         total = 2 * np.arccos(np.clip(np.abs(half), 0, 1))
         return replace(self, total=total, heading=heading)
 
+    def at(self, time: np.ndarray) -> AttitudeError:
+        """The rows whose times are among ``time`` (k,)."""
+        rows = np.isin(self.time, time)
+        return AttitudeError(
+            self.time[rows], self.total[rows], self.heading[rows], self.inclination[rows]
+        )
+
     def powers(self, span: float) -> np.ndarray:
         """Mean square [rad^2] in each ``span`` s (k,)."""
         window = np.floor((self.time - self.time[0]) / span) if len(self.time) else self.time

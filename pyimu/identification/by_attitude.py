@@ -204,8 +204,15 @@ def _chance(
 ) -> float:
     """How often chance would make an error grow by as much (Student's test of the mean squares of
     its windows in pairs); NaN of a few windows.
+
+    What undoes a delay or a lag knows no truth of a log's last rows: those count that both have.
     """
-    grown = np.concatenate([after[n].powers(WINDOW) - before[n].powers(WINDOW) for n in names])
+    grown = np.concatenate(
+        [
+            after[n].at(before[n].time).powers(WINDOW) - before[n].at(after[n].time).powers(WINDOW)
+            for n in names
+        ]
+    )
     if len(grown) < LEAST_WINDOWS:
         return float("nan")
     return float(ttest_1samp(grown, 0.0, alternative="greater").pvalue)

@@ -40,6 +40,13 @@ def test_two_windows_cannot_tell():
     assert not _by_chance({"a": error([0.02, 0.03])}, {"a": error([0.03, 0.02])}, ["a"])
 
 
+def test_rows_of_which_one_alone_knows_an_error_count_for_neither():
+    """What undoes a lag has no truth of a log's last rows, and a window of them alone."""
+    before = error(0.02 + 0.005 * np.arange(8))
+    after = error([*(1.04 * before.total[::10]), 3.0])
+    assert not _by_chance({"a": before}, {"a": after}, ["a"])
+
+
 def test_the_power_of_each_window():
     assert error([0.1, 0.2]).powers(WINDOW) == pytest.approx([0.01, 0.04])
 
