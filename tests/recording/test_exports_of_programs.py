@@ -222,3 +222,37 @@ def test_the_unit_of_a_temperature():
     assert warmth_unit(np.linspace(21.5, 36.25, 500)).unit == "degC"
     assert warmth_unit(np.linspace(291.5, 309.25, 500)).unit == "K"
     assert warmth_unit(np.arange(20.0, 120.0)).unit is None
+
+
+PLACES = {
+    "tx ty tz qx qy qz qw": "tx",
+    "x y z qx qy qz qw": "x",
+    "p_x p_y p_z q_x q_y q_z q_w": "p_x",
+    "translation.x translation.y translation.z rotation.x rotation.y rotation.z rotation.w": (
+        "translation.x"
+    ),
+}
+
+
+@pytest.mark.parametrize("names", PLACES)
+def test_the_places_of_a_table_of_poses(names, log, tmp_path):
+    """As TUM's format has them, which data sets and estimators of cameras write."""
+    time, _, _, up = log
+    half = 0.5 * np.arctan2(up[:, 1], up[:, 2])
+    columns = [time, time, 0.1 * time, -time, np.sin(half), 0 * time, 0 * time, np.cos(half)]
+    path = table(tmp_path / "pose.txt", [f"# timestamp {names}"], columns, " ")
+    found = inspect(path)
+    (proposal,) = found.proposals
+    assert [g.target for g in proposal.guesses if g.cell == PLACES[names]] == ["ref_east"]
+    np.testing.assert_allclose(found.recording.ref_up, -time, atol=1e-6)
+    assert "is z up?" in found.column_map and not proposal.notes
+
+
+def test_an_attitude_beside_a_sensor_is_named(log, tmp_path):
+    """It may be a reference, and may be the sensor's own estimate."""
+    time, gyro, accel, _ = log
+    head = ["time", *(f"{n}_{a}" for n in ("gyro", "acce") for a in "xyz")]
+    head += [f"ori_{a}" for a in "wxyz"]
+    columns = [time, *gyro.T, *accel.T, 1 + 0 * time, *np.zeros((3, len(time)))]
+    (proposal,) = inspect(table(tmp_path / "r.csv", [",".join(head)], columns)).proposals
+    assert any("ori_w, ori_x, ori_y, ori_z are left out" in note for note in proposal.notes)

@@ -68,6 +68,7 @@ ELSE = {"pos", "position", "vel", "velocity", "speed", "angle", "euler"}
 
 _AXIS_FIRST = re.compile(r"([xyz])(gyro?s?|gyroscope|acce?l?|acceleration|mag)")
 _COUNTED = re.compile(r"(.*[A-Za-z])[_. ]?([0-3])(?: *\[1?\])?")
+_SPOT = re.compile(r"((?:.*[^A-Za-z])?(?:t|p|pos|position|trans|translation)[._ /]?|)([xyz])", re.I)
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 
 
@@ -328,3 +329,20 @@ def places(header: Sequence[str]) -> dict[str, int]:
         if len(place) == 1 and of_length and not words - place - {"pos", "position", *TRUTHS}:
             found.setdefault(PLACES[place.pop()], position)
     return found if {"ref_north", "ref_east"} <= set(found) else {}
+
+
+def spots(header: Sequence[str]) -> dict[str, int]:
+    """Positions of a place along x, y and z by ``ref_east`` and so on, as tables of an attitude and
+    a place have it (``tx``, ``p_x``, ``translation.x``, ``x``); empty where none or several are
+    there.
+    """
+    stems: dict[str, dict[str, int]] = {}
+    for position, cell in enumerate(header):
+        match = _SPOT.fullmatch(re.sub(r"\s*[\[(].*", "", cell).strip("#% "))
+        unit = named(cell).unit
+        if match and (unit is None or same_dimension(unit, "m")):
+            stems.setdefault(match[1].casefold(), {})[match[2].casefold()] = position
+    whole = [axes for axes in stems.values() if len(axes) == 3]
+    if len(whole) != 1:
+        return {}
+    return dict(zip(("ref_east", "ref_north", "ref_up"), map(whole[0].get, "xyz"), strict=True))  # type: ignore[arg-type]

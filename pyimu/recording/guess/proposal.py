@@ -24,6 +24,7 @@ from pyimu.recording.guess.names import (
     others,
     places,
     quaternions,
+    spots,
     surest,
     triads,
 )
@@ -108,12 +109,16 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     vectors = triads(reader.header, reader.path.name)
     picked = {g: _surest(found, vectors, g) for g in ("accel", "gyro", "mag")}
     attitudes = _attitudes(reader, numbers)
+    place: dict[str, int] = {}
     if picked["accel"] is None and picked["gyro"] is None:
+        place = spots(reader.header) if len(attitudes) == 1 else {}
         away = {k for at in attitudes for k in at.values()} | set(angles(reader.header).values())
+        place = {} if away & set(place.values()) else place
+        away |= set(place.values())
         picked = _by_numbers(found, reader, numbers, period, away) | {"mag": picked["mag"]}
     for group in ("accel", "gyro"):
         if picked[group] is None:
-            named_ones = [p for vector in vectors for p in vector.positions]
+            named_ones = [p for v in vectors for p in v.positions] + [*place.values()]
             picked[group] = _missing(found, group, reader, numbers, picked, period, named_ones)
     force = None if picked["accel"] is None else numbers.of([p for p, _ in picked["accel"]])
     time = None if beside is None or force is not None else _seconds(found, numbers)
@@ -125,7 +130,7 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     _temperature(found, reader, numbers)
     _reference(found, reader, attitudes)
     _angles(found, reader, numbers)
-    _place(found, reader)
+    _place(found, reader, place)
     _own(found, reader)
     return found
 
@@ -471,6 +476,11 @@ def _reference(found: Proposal, reader: Reader, attitudes: Sequence[dict[str, in
     if at is None and len(attitudes) == 1 and not {"gyro", "accel"} & set(found.groups):
         at, why = attitudes[0], "four numbers of length one, and no sensor; body to world?"
     if at is None:
+        for four in attitudes:
+            cells = ", ".join(reader.header[four[a]] for a in "wxyz")
+            found.notes.append(
+                f"{cells} are left out: an estimate, or a reference's ref_q_w to ref_q_z?"
+            )
         return
     why = f"{why} see [frame]"
     found.add([Guess(reader.header[at[a]], f"ref_q_{a}", "1", why) for a in "wxyz"])
@@ -499,11 +509,16 @@ def _angles(found: Proposal, reader: Reader, numbers: Numbers) -> None:
     found.add([Guess(c, t, guess.unit, why) for c, t in zip(cells, ANGLES, strict=True)])
 
 
-def _place(found: Proposal, reader: Reader) -> None:
-    """Add north, east and down or up of a file that holds a reference alone."""
+def _place(found: Proposal, reader: Reader, place: Mapping[str, int]) -> None:
+    """Add north, east and down or up of a file that holds a reference alone, or else its ``place``
+    along x, y and z.
+    """
     if found.holds != "reference":
         return
-    for target, position in places(reader.header).items():
+    by_name = places(reader.header)
+    asked = "" if by_name else "; is z up?"
+    for target, position in (by_name or place).items():
         name = named(reader.header[position])
         unit, said = name.unit or "m", "the header says so" if name.unit else "a place, in m?"
+        said += asked
         found.add([Guess(name.cell, target, unit, said)])
