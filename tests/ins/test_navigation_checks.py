@@ -323,3 +323,22 @@ def test_headings_that_count_clockwise_are_said_and_not_used(log):
     found = run(bare, assumed(), method="filter")
     assert "count clockwise, as a compass does" in found.report()
     assert found.heading_from != "the log's column heading"
+
+
+def test_a_part_that_is_too_quiet_for_a_log_is_told_by_its_rests():
+    """A log of another sensor, ten times as noisy, shows no rest by the part's noise."""
+    rest = noisy(perfect(SHORT), assumed(), 3)
+    louder = noisy(perfect(SHORT), part_of_noise(10.0), 3)
+    asked = "is it another part?"
+    assert "There is no rest in this log" in said(louder) and asked in said(louder)
+    assert asked not in said(rest)
+
+
+def part_of_noise(times):
+    values = {k: dict(assumed().sensor(k).values) for k in ("gyro", "accel")}
+    for own in values.values():
+        walk = own["angle_random_walk"]
+        own["angle_random_walk"] = walk | {"N": times * walk["N"]}
+    return replace(
+        assumed(), **{k: replace(assumed().sensor(k), values=v) for k, v in values.items()}
+    )

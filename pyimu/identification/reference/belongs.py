@@ -16,6 +16,7 @@ from pyimu.identification.reference.moving import (
 )
 from pyimu.identification.search.belief import most
 from pyimu.model.kinds import KINDS, OWN
+from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.reference.band import COHERENCE, LEAST_BAND
 from pyimu.recording.reference.rate import VERTICAL
 from pyimu.recording.rest import ONE_SHOCK, RARE, seconds_of
@@ -31,6 +32,9 @@ smaller numbers."""
 
 ALIKE = 0.1
 """How near a factor must be to one that is a mistake of units."""
+
+CUT = 0.05
+"""Share of rows at the limit of a sensor's range that are a reason for what no reference shows."""
 
 UNFIT = 0.5
 """Share of the sensor's moving power below which a reference does not belong to the sensor."""
@@ -88,6 +92,13 @@ def too_little(trial: Trial, share: float) -> str:
     if share >= (COHERENCE if _coheres_nowhere(trial) else UNFIT):
         return ""
     course = ", or it moves otherwise than ahead: its course is then no heading"
+    cut = float(np.mean(np.any([clipped(trial.y[:, axis]) for axis in trial.axes], axis=0)))
+    if cut > CUT:
+        return (
+            f"the reference of {trial.name} accounts for {max(share, 0.0):.0%} of what the "
+            f"{trial.kind} shows, and {cut:.0%} of the rows lie at the limit of its range, beyond "
+            "which it shows nothing: move it less, or set a larger range"
+        )
     return (
         f"the reference of {trial.name} accounts for {max(share, 0.0):.0%} of what the "
         f"{trial.kind} shows: another body, another time, or other axes"

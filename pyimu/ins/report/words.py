@@ -14,6 +14,7 @@ from pyimu.ins.filter.variables import STATUS_NAMES
 from pyimu.ins.measured import CONTRADICTED
 from pyimu.ins.outcome import Outcome
 from pyimu.ins.short_rests import SWUNG
+from pyimu.recording.rest import rests
 from pyimu.report.findings import in_line
 from pyimu.report.numbers import number, quantity
 
@@ -26,6 +27,9 @@ TITLES = {
 
 MOSTLY = 0.5
 """Share of the samples of rests beyond which these are none, if they contradict the estimate."""
+
+LONG_REST = 3.0
+"""s; a rest by the log's own noise that is worth a word."""
 
 LASTS = 0.1
 """Share of the samples of a stop from which on it may be none: of one the first few contradict the
@@ -235,6 +239,7 @@ def _rests(a: Outcome) -> str:
         return (
             f"{where} in this log, so nothing to update with: the position is integrated "
             "alone, and its standard deviations say how little that is worth"
+            f"{_of_its_own_noise(a)}"
         )
     if a.still.all():
         return "The whole log is at rest: there is no path"
@@ -246,6 +251,20 @@ def _rests(a: Outcome) -> str:
     if not a.later_stops:
         text += ": after the start there is nothing to update with"
     return text + _of_feet(a)
+
+
+def _of_its_own_noise(a: Outcome) -> str:
+    """Where a log rests that is judged by its own noise: the part's is then too small for it."""
+    if a.zupt not in ("auto", "live") or _declared(a):
+        return ""
+    own = max((j - i for i, j in rests(a.recording)), default=0) * a.recording.sample_period
+    if own < LONG_REST:
+        return ""
+    part = a.part or "the part"
+    return (
+        f". By its own noise it rests for {quantity(own, 's', 2)}: the noise of {part} is too "
+        "small for it, is it another part?"
+    )
 
 
 def _of_feet(a: Outcome) -> str:
