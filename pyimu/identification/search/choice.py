@@ -315,6 +315,9 @@ def refine(current: Fit, c: Screened) -> Refined:
     bends = current.is_reduced and c.effect not in STRUCTURE
     if bends:
         fitted, normal = fit_and_normal(reweighed(fitted))
+    if is_ceiling(sensor, c.effect):
+        # Beside a scale factor that clipped samples bend the levels stray from where these lie.
+        fitted = at_samples(fitted)
     declared = c.effect in current.sensor.values
     wider = widening(fitted) if len(c.groups) > 1 and is_slow(sensor.effect(c.effect)) else {}
     needed = tuple(g for g in c.groups if _needed(fitted, normal, g, declared, c.scatter, wider))
@@ -323,7 +326,6 @@ def refine(current: Fit, c: Screened) -> Refined:
     spread = fitted_dispersion(normal, keys_of(c), c.scatter)
     if _leaves_more(fitted, current):
         needed = ()
-    fitted = at_samples(fitted) if is_ceiling(sensor, c.effect) else fitted
     fitted = at_threshold(fitted) if is_threshold(sensor, c.effect) else fitted
     fitted = at_instants(fitted, c.effect)
     if bends:
