@@ -1,5 +1,5 @@
-"""Folders that are one log: a phone's, KITTI's ``oxts`` or the drive around it, and a sequence of
-EuRoC MAV or TUM VI with its ground truth.
+"""Folders that are one log: a phone's or a MetaMotion's, KITTI's ``oxts`` or the drive around it,
+and a sequence of EuRoC MAV or TUM VI with its ground truth.
 
 The sequence's layout is that of Burri et al. 2016 (EuRoC), which TUM VI keeps: ``mav0`` with a
 folder for each instrument, each with its ``data.csv``.

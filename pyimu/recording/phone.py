@@ -7,6 +7,9 @@ of accelerations are the other way round, and ``AccelerometerUncalibrated`` is i
 
 phyphox (its wiki, "Export"): a table a sensor whose header says ``Time (s)`` and the unit of each
 axis, with one clock and the same signs on both systems; ``Accelerometer`` is the specific force.
+
+MetaBase (MetaMotion): a table a sensor, ``NAME_Gyroscope_100.000Hz_1.7.3.csv``, whose header says
+``epoc (ms)``, a clock of all of them, and the unit of each axis.
 """
 
 from __future__ import annotations
@@ -36,9 +39,29 @@ STATED = (("Accelerometer.csv", "accel"), ("Magnetometer.csv", "mag"))
 """Further files of phyphox, and what they hold."""
 
 
+METABASE = (("Accelerometer", "accel"), ("Magnetometer", "mag"))
+"""Further files of MetaBase, and what they hold."""
+
+
 def is_phone(folder: Path) -> bool:
-    """Whether a folder holds a phone's gyro in a file of its own."""
-    return any((folder / name).is_file() for name in GYROS)
+    """Whether a folder holds a phone's gyro in a file of its own, or that of one MetaMotion."""
+    phones = any((folder / name).is_file() for name in GYROS)
+    return phones or _of_sensor(folder, "Gyroscope") is not None
+
+
+def _of_sensor(folder: Path, sensor: str) -> Path | None:
+    """The one file of MetaBase in a folder that is of a ``sensor``."""
+    found = list(folder.glob(f"*_{sensor}_*Hz_*.csv"))
+    return found[0] if len(found) == 1 else None
+
+
+def _of_metabase(folder: Path, gyro: Path) -> tuple[Path, ForeignMap] | None:
+    first = _by_header(gyro, "gyro")
+    if first is None:
+        return None
+    there = [(_of_sensor(folder, sensor), group) for sensor, group in METABASE]
+    found = [(path.name, _by_header(path, group)) for path, group in there if path is not None]
+    return gyro, replace(first, files=tuple((name, own) for name, own in found if own is not None))
 
 
 def of_phone(folder: Path) -> tuple[Path, ForeignMap]:
@@ -47,7 +70,10 @@ def of_phone(folder: Path) -> tuple[Path, ForeignMap]:
     The magnetometer without the phone's own calibration goes first. Raises UserError where it is
     not known which program or which system wrote the files.
     """
-    gyro = folder / next(name for name in GYROS if (folder / name).is_file())
+    own = _of_sensor(folder, "Gyroscope")
+    if own is not None and (found := _of_metabase(folder, own)) is not None:
+        return found
+    gyro = folder / next((name for name in GYROS if (folder / name).is_file()), own or GYROS[0])
     header = CsvReader.open(gyro).header
     if not {"time", *XYZ} <= set(header):
         return gyro, _of_phyphox(folder, gyro)

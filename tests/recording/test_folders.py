@@ -11,6 +11,7 @@ from log_folders import (
     android_uncalibrated,
     core_motion,
     ios_total,
+    metamotion,
     phone_gyro,
     phyphox_field,
     sensor_log,
@@ -64,6 +65,21 @@ def test_the_force_of_apples_phones_is_whole_and_of_the_right_sign(make, tmp_pat
     whole = inspect(path)
     assert not whole.problem
     np.testing.assert_array_equal(whole.recording.accel, found.accel)
+
+
+def test_the_files_of_one_metamotion_are_a_log(tmp_path):
+    """By the clock that all its files have."""
+    time, gyro, accel = log = raw_logs.still(300)
+    folder = metamotion(tmp_path, log)
+    found = read_recording(folder)
+    np.testing.assert_allclose(found.gyro, gyro, rtol=4e-16)
+    np.testing.assert_allclose(found.accel, accel, rtol=4e-16)
+    np.testing.assert_allclose(found.time - found.time[0], time * 1e-9, rtol=0, atol=1e-12)
+    assert found.name == "metamotion" and not inspect(folder).problem
+    (gyro_file,) = folder.glob("*_Gyroscope_100*")
+    (folder / gyro_file.name.replace("F3D9C1", "A1B2C3")).write_text(gyro_file.read_text())
+    with pytest.raises(UserError, match="a folder, give the files in it"):
+        read_recording(folder)
 
 
 def test_core_motion_without_times_takes_a_rate_alone(tmp_path):

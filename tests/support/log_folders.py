@@ -51,6 +51,23 @@ def phyphox_field(folder, log):
     return where
 
 
+def metamotion(folder, log):
+    """MetaBase's files of one MetaMotion, the accelerometer 2 ms late."""
+    time, gyro, accel = log
+    where = folder / "metamotion"
+    where.mkdir()
+    sensors = (
+        ("Gyroscope", np.degrees(gyro), "deg/s", 0),
+        ("Accelerometer", accel / 9.80665, "g", 2),
+    )
+    for name, values, unit, late in sensors:
+        axes = ",".join(f"{a}-axis ({unit})" for a in AXES)
+        columns = [FIRST // 10**6 + time // 10**6 + late, time * 1e-9, *values.T]
+        path = where / f"MetaWear_2021-06-05T14.31.17.372_F3D9C1_{name}_100.000Hz_1.7.3.csv"
+        text(path, [f"epoc (ms),elapsed (s),{axes}"], columns)
+    return where
+
+
 def sequence(folder, log, truth=TRUTH, angle=None):
     """EuRoC's layout: ``mav0`` with the inertial unit, and every fifth sample's ``angle`` (n,) rad
     about z as the instrument ``truth`` saw it.
@@ -199,5 +216,5 @@ def plotjuggler(folder, log):
 FOLDERS = (android_uncalibrated, ios_total, phyphox_field, euroc_sequence)
 FILES = (xsens_fine, xsens_dot, phone_gyro, bag_table, plotjuggler)
 APPLE = (sensor_log, core_motion, oxiod)
-OTHERS = (nclt_imu, nclt_truth, kitti_drive, *APPLE)
+OTHERS = (nclt_imu, nclt_truth, kitti_drive, metamotion, *APPLE)
 """Layouts of which tests of their own say what is in them."""
