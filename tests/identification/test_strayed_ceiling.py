@@ -9,6 +9,7 @@ from loop_cases import inputs, noise, trial
 from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.reference.belongs import too_little
 from pyimu.identification.search import choice
 from pyimu.identification.search.screen import screen
 from pyimu.model.kinds import OWN
@@ -52,3 +53,12 @@ def test_a_level_that_a_fit_puts_beyond_the_samples_is_brought_to_them(
     assert len(refined.screened.groups) == 3 and np.isfinite(refined.gain)
     limits = refined.fit.sensor.values["saturation"]["limit"]
     np.testing.assert_allclose(limits, levels, rtol=1e-9)
+
+
+def test_a_reference_of_a_clipped_gyro_is_not_called_another_bodys(clipped):
+    (case,) = clipped[0].trials
+    assert too_little(case, 0.6) == ""
+    said = too_little(case, 0.4)
+    assert "40% of what the gyro shows" in said and "of the rows lie at the limit" in said
+    whole = replace(case, y=case.u[:, OWN["gyro"]])
+    assert "another body" in too_little(whole, 0.4)
