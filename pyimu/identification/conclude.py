@@ -40,7 +40,8 @@ from pyimu.identification.references import references
 from pyimu.identification.result import Closed
 from pyimu.identification.rounding import is_coarse
 from pyimu.identification.search.belief import most
-from pyimu.identification.search.forward import Investigation, Refused, form_error
+from pyimu.identification.search.forward import Investigation, Refused
+from pyimu.identification.search.inexact import left_by_forms
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.third_sensor import and_magnetometer, of_magnetometer
 from pyimu.identification.unshown import with_unshown_held
@@ -249,7 +250,7 @@ def _counts(inv: Investigation, a: Added) -> bool:
     """Whether a noise is more than what the form of an effect may leave, and no larger than any."""
     values = a.parameters.items()
     sizes = [most(a.effect, a.sensor, name) >= np.nanmax(np.abs(v)) for name, (v, *_) in values]
-    return a.gain > form_error(inv.steps) and all(sizes)
+    return a.gain > left_by_forms(inv.after, inv.steps) and all(sizes)
 
 
 def _is_noise(inv: Investigation, look: Look) -> bool:

@@ -47,7 +47,8 @@ from pyimu.identification.formula.terms import (
 )
 from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.confirm import evidence
-from pyimu.identification.search.forward import Investigation, Refused, Step, form_error
+from pyimu.identification.search.forward import Investigation, Refused, Step
+from pyimu.identification.search.inexact import left_by_forms
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
@@ -193,7 +194,7 @@ def _tried(
     more than what has a name; None where there is neither. What is ``done`` is not done again: a
     whole investigation is long.
     """
-    name, needed = free_name(), max(gate(scores), form_error(inv.steps))
+    name, needed = free_name(), max(gate(scores), left_by_forms(start, inv.steps))
     rival: Found | None = None
 
     def left(chosen: Chosen, fitted: Fit) -> Chosen:

@@ -14,6 +14,7 @@ from functools import partial
 
 import numpy as np
 
+from pyimu.errors import Finding
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.behind import (
@@ -36,7 +37,8 @@ from pyimu.recording.reference.unfiltered_places import (
     unlagged_places,
     unsmoothed_places,
 )
-from pyimu.recording.reference.unsmoothed import CLEARLY, KINDS, Smoothing
+from pyimu.recording.reference.unlagged import LAG
+from pyimu.recording.reference.unsmoothed import CLEARLY, KINDS, SMOOTHED, Smoothing
 
 STEP = 2.0
 """From cut-off to cut-off of those that are tried first."""
@@ -78,14 +80,45 @@ def without_filter_of_places(
     found = likeliest(
         seen, _kinds(trial.h), lambda f: _half_variance(f) < LEAST, judged, _most_on_time
     )
+    found = _shared(seen, recording, judged, found) or found
     if found is None:
         return _on_time(judged(seen, [TOGETHER]), trial.reference)
     # A filter that counts each sample when it comes is early by half a sample, one that averages
     # the last of them late by half of these.
-    known = {"kind": trial.reference, "early": judged(seen, [found]).lead(found)}
+    judge = judged(seen, [found])
+    explained = 0.5 * (judge.left(None) - judge.left(found))
+    known = {"kind": trial.reference, "early": judge.lead(found), "explained": explained}
     if isinstance(found, Lag):
         return partial(unlagged_places, lag=found.size, **known)
     return partial(unsmoothed_places, smoothing=found, **known)
+
+
+def _shared(
+    seen: Trial,
+    recording: Recording,
+    judged: Callable[..., PlacesJudge],
+    found: Filter | None,
+) -> Filter | None:
+    """The filter that was taken out of the attitudes of a ``recording``, where places are rather
+    behind it than behind none, and as likely as behind the one that was ``found`` among many: what
+    goes over all that cameras saw is the commonest there is.
+    """
+    findings = () if recording.reference is None else recording.reference.findings
+    filters = [_filter_of(f) for f in findings if f.column == "ref_q" and f.kind in (LAG, SMOOTHED)]
+    for one in filters:
+        judge = judged(seen, [one] if found is None else [one, found])
+        if not judge.any_short or judge.left(None) - judge.left(one) < 2.0 * WANDERS:
+            continue
+        if found is None or judge.left(one) - judge.left(found) < 2.0 * WANDERS:
+            return one
+    return None
+
+
+def _filter_of(finding: Finding) -> Filter:
+    """The filter that a finding is about."""
+    if finding.kind == LAG:
+        return Late(float(finding.detail["time_constant"]))
+    return Smoothing.of_detail(finding.detail)
 
 
 def _most_on_time(judge: PlacesJudge, alike: list[Filter]) -> Filter:
@@ -104,7 +137,8 @@ def _on_time(judge: PlacesJudge, kind: str) -> Callable[[Recording], Recording] 
     early = judge.lead(None)
     if not LEAST_EARLY * judge.whole.h < abs(early) < FARTHEST:
         return None
-    return partial(places_on_time, kind=kind, early=early)
+    explained = 0.5 * (judge.left(TOGETHER) - judge.left(None))
+    return partial(places_on_time, kind=kind, early=early, explained=explained)
 
 
 def _kinds(h: float) -> list[tuple[Callable[..., Filter], list[float]]]:

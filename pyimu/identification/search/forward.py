@@ -5,7 +5,7 @@ Screen, fit the best few in full, ask the held-out data, add, and look again.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, replace
 from types import MappingProxyType
 from typing import Any
@@ -33,6 +33,7 @@ from pyimu.identification.search.ceiling import (
 )
 from pyimu.identification.search.choice import Refined, Tried, chosen_of
 from pyimu.identification.search.confirm import evidence
+from pyimu.identification.search.inexact import within_form
 from pyimu.identification.search.judge import OF_REFERENCE, judged
 from pyimu.identification.search.left_out import LeftOut, with_left_out
 from pyimu.identification.search.own_lag import (
@@ -43,7 +44,6 @@ from pyimu.identification.search.own_lag import (
 )
 from pyimu.identification.search.projected import Scatter
 from pyimu.identification.search.reference_line import without_line
-from pyimu.identification.search.remainder import left_by_form
 from pyimu.identification.search.screen import (
     PENALTY,
     Screened,
@@ -56,10 +56,6 @@ from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effects import EFFECTS
 from pyimu.model.sensor import Sensor
 from pyimu.silent import silent
-
-FORM = 0.01
-"""Share of what a lag or a delay explains that its form may leave: a tenth of its amplitude, as the
-sampled form of a pole is off at a quarter of the sample rate."""
 
 MOST_LINES = 4
 """Lines that are taken out of a reference at most; an encoder's motion makes dozens, of which few
@@ -275,7 +271,7 @@ class _Search:
         instead = max(self._likelier_than(chosen.gain), 0.0)
         if self._grows(instead, instead):
             return True
-        reason = _within_form(chosen, self.steps, self.after)
+        reason = within_form(chosen, self.steps, self.after)
         if not reason:
             chosen, reason = judged(self.tried, chosen, self.held, self.seen.gate)
         name = chosen.screened.effect
@@ -379,27 +375,6 @@ def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:
             found = (read.effect, read.keys, read.gain, GATE, read.alternatives, 1.0)
             steps.append(Step(*found, as_sampled=True))
     return after, steps
-
-
-def form_error(steps: Iterable[Step], stages: Collection[str] = ("dynamics", "output")) -> float:
-    """Gain [nat] that the form of dynamics and output in a model may leave: it is not exact."""
-    known = [s.gain for s in steps if CATALOGUE[s.effect].stage in stages and not s.as_sampled]
-    return FORM * max(known, default=0.0)
-
-
-def _within_form(chosen: Refined, steps: list[Step], current: Fit) -> str:
-    """Why a candidate beside the ``current`` model may be nothing but what the form of its dynamics
-    leaves: of a delay that is exact to the noise that is nothing, though the delay explains ever so
-    much.
-    """
-    if chosen.gain > form_error(steps):
-        return ""
-    # At first look it is seen by the noise by which the form is.
-    gain = min(chosen.gain, chosen.screened.gain)
-    of_output = form_error(steps, ("output",))
-    if gain > of_output and not current.is_reduced and gain > left_by_form(current):
-        return ""
-    return f"explains less than {FORM:.0%} of what the lag or delay does, whose form is not exact"
 
 
 def _in_order(options: list[Screened], fit: Fit) -> list[Screened]:

@@ -22,6 +22,10 @@ DEGREE = 5
 LATE = "positions_late"
 """The finding of places that have another clock than the attitudes beside them."""
 
+EXPLAINED = "explained"
+"""Of a finding: what the filter, or the clock, explained of what the accelerometer shows beside the
+places, in nat."""
+
 GROUPS = {
     "position": ("ref_east", "ref_north", "ref_up"),
     "velocity": ("ref_velocity",),
@@ -30,10 +34,15 @@ GROUPS = {
 
 
 def unsmoothed_places(
-    recording: Recording, smoothing: Smoothing, kind: str, early: float = 0.0
+    recording: Recording,
+    smoothing: Smoothing,
+    kind: str,
+    early: float = 0.0,
+    explained: float = 0.0,
 ) -> Recording:
     """The recording with the places of a ``kind`` that were smoothed, less those near an end, and
-    are ``early`` by so many s; as it is where no segment reaches further.
+    are ``early`` by so many s; as it is where no segment reaches further. That they were smoothed
+    ``explained`` so many nat.
     """
 
     def sharp(time: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -43,26 +52,32 @@ def unsmoothed_places(
             out[reach:-reach] = smoothing.vectors(values, h)[reach:-reach]
         return out
 
-    found = Finding(SMOOTHED, "", 1, smoothing.as_detail())
+    found = Finding(SMOOTHED, "", 1, smoothing.as_detail() | {EXPLAINED: explained})
     return _with(recording, kind, sharp, early, found)
 
 
-def unlagged_places(recording: Recording, lag: float, kind: str, early: float = 0.0) -> Recording:
+def unlagged_places(
+    recording: Recording, lag: float, kind: str, early: float = 0.0, explained: float = 0.0
+) -> Recording:
     """The recording with the places of a ``kind`` that went into a low-pass filter of first order
-    with a time constant of ``lag`` s, and are ``early`` by so many s.
+    with a time constant of ``lag`` s, and are ``early`` by so many s. The filter ``explained`` so
+    many nat.
     """
 
     def quick(time: np.ndarray, values: np.ndarray) -> np.ndarray:
         return values + lag * slope(time, values)
 
-    return _with(recording, kind, quick, early, Finding(LAG, "", 1, {"time_constant": lag}))
+    found = Finding(LAG, "", 1, {"time_constant": lag, EXPLAINED: explained})
+    return _with(recording, kind, quick, early, found)
 
 
-def places_on_time(recording: Recording, kind: str, early: float) -> Recording:
+def places_on_time(
+    recording: Recording, kind: str, early: float, explained: float = 0.0
+) -> Recording:
     """The recording with the places of a ``kind`` that are ``early`` by so many s beside its
-    attitudes.
+    attitudes, which ``explained`` so many nat.
     """
-    found = Finding(LATE, "", 1, {"late": -early})
+    found = Finding(LATE, "", 1, {"late": -early, EXPLAINED: explained})
     return _with(recording, kind, lambda _, values: values, early, found)
 
 
