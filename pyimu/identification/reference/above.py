@@ -8,7 +8,6 @@ said of the sensor, and nothing false.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +17,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.place import at_the_point, with_force
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.reference.unfiltered_places import EXPLAINED, GROUPS
+from pyimu.recording.reference.unfiltered_places import GROUPS
 from pyimu.recording.reference.unsmoothed import SMOOTHED, Smoothing
 
 COLUMNS_OF_PLACES = frozenset(names[0] for names in GROUPS.values())
@@ -40,14 +39,6 @@ def with_sensor_above(trial: Trial) -> Trial:
             u[a:b, own] += body.apply(smoothing.lost(world, trial.h), inverse=True)
             segments.append((a + reach, b - reach))
     return with_force(replace(trial, segments=segments), u) if segments else trial
-
-
-def explained_by_filters(trials: Iterable[Trial]) -> float:
-    """What the filters explained [nat] that were taken out of the places of trials; the most of any
-    log.
-    """
-    found = (f for t in trials for f in t.findings if f.column in COLUMNS_OF_PLACES)
-    return max((f.detail.get(EXPLAINED, 0.0) for f in found), default=0.0)
 
 
 def _smoothing(trial: Trial) -> Smoothing | None:

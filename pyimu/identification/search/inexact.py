@@ -4,17 +4,14 @@ output, and of a filter that was taken out of a reference's places.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Iterable, Sequence
+from typing import Protocol
 
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.reference.above import explained_by_filters
+from pyimu.identification.search.choice import Refined
 from pyimu.identification.search.remainder import left_by_form
 from pyimu.model.catalogue import CATALOGUE
-
-if TYPE_CHECKING:
-    from pyimu.identification.search.choice import Refined
-    from pyimu.identification.search.forward import Step
+from pyimu.recording.reference.unfiltered_places import EXPLAINED
 
 FORM = 0.01
 """Share of what a lag or a delay explains that its form may leave: a tenth of its amplitude, as the
@@ -22,12 +19,20 @@ sampled form of a pole is off at a quarter of the sample rate; and of what a fil
 was undone, of which two kinds differ as much that a log hardly tells apart."""
 
 
-def left_by_forms(fit: Fit, steps: Iterable[Step]) -> float:
+class Known(Protocol):
+    """What is in a model: an effect, how much it explains [nat], whether samples alone show it."""
+
+    effect: str
+    gain: float
+    as_sampled: bool
+
+
+def left_by_forms(fit: Fit, steps: Iterable[Known]) -> float:
     """Gain [nat] that all forms together may leave of what is beside a model with ``steps``."""
     return max(_form_error(steps), _filters_error(fit))
 
 
-def within_form(chosen: Refined, steps: list[Step], current: Fit) -> str:
+def within_form(chosen: Refined, steps: Sequence[Known], current: Fit) -> str:
     """Why a candidate beside the ``current`` model may be nothing but what a form leaves; empty
     where it is more.
     """
@@ -44,7 +49,7 @@ def _less(what: str) -> str:
     return f"explains less than {FORM:.0%} of what {what}"
 
 
-def _is_exact(gain: float, steps: list[Step], current: Fit) -> bool:
+def _is_exact(gain: float, steps: Sequence[Known], current: Fit) -> bool:
     """Whether a ``gain`` is more than what the form of the dynamics leaves: of a delay that is
     exact to the noise that is nothing, though the delay explains ever so much.
     """
@@ -52,7 +57,7 @@ def _is_exact(gain: float, steps: list[Step], current: Fit) -> bool:
     return gain > of_output and not current.is_reduced and gain > left_by_form(current)
 
 
-def _form_error(steps: Iterable[Step], stages: Collection[str] = ("dynamics", "output")) -> float:
+def _form_error(steps: Iterable[Known], stages: Collection[str] = ("dynamics", "output")) -> float:
     """Gain [nat] that the form of dynamics and output in a model may leave."""
     known = [s.gain for s in steps if CATALOGUE[s.effect].stage in stages and not s.as_sampled]
     return FORM * max(known, default=0.0)
@@ -64,4 +69,5 @@ def _filters_error(fit: Fit) -> float:
     What is left of one is linear in the world's forces. In those of the body it is mixed with how
     that turns, and no sum of the sensor's own signals says how much there is of it.
     """
-    return FORM * explained_by_filters(fit.trials)
+    explained = (f.detail.get(EXPLAINED, 0.0) for t in fit.trials for f in t.findings)
+    return FORM * max(explained, default=0.0)
