@@ -131,31 +131,41 @@ class Cubics:
 
 
 def beyond_range(recording: Recording, part: Part) -> tuple[Recording, float]:
+    """The recording with the rates of spans at the gyro's limit drawn beyond it (``by_axis``), and
+    the standard deviation in rad/s of the rates that were drawn, 0 where none were.
+
+    Where an axis stays at its limit, or samples are missing, the filter's own ``lost_rate_std`` is
+    the least: it has one for all rates that are lost.
+    """
+    drawn, stds = by_axis(recording, part)
+    most = max(std or 0.0 for std in stds)
+    if most == 0:
+        return recording, 0.0
+    unknown = None in stds or not np.isfinite(recording.gyro).all()
+    return drawn, max(most, USUAL["lost_rate_std"] if unknown else 0.0)
+
+
+def by_axis(recording: Recording, part: Part) -> tuple[Recording, list[float | None]]:
     """The recording with the rates of spans at the gyro's limit drawn beyond it.
 
     The limit is that of ``part``, which has what the samples pile up at. Gives, too, the standard
-    deviation in rad/s of the rates that were drawn, as a rate that stays the same for a span; 0
-    where none were. Each axis of which ``LEAST`` known spans say that drawing helps is drawn;
-    others stay at their limit. Where one does, or where samples are missing, the filter's own
-    ``lost_rate_std`` is the least: it has one for all rates that are lost.
+    deviation of each axis in rad/s of the rates that were drawn, as a rate that stays the same for
+    a span: 0 without spans. Each axis of which ``LEAST`` known spans say that drawing helps is
+    drawn; others stay at their limit, and have None.
     """
     effect, parameter = read_off(CATALOGUE.values(), "ceiling")
     limits = part.gyro.values.get(effect, {}).get(parameter)
     if recording.gyro is None or limits is None:
-        return recording, 0.0
-    gyro, off = recording.gyro.copy(), [0.0]
-    unknown = not np.isfinite(gyro).all()
+        return recording, [0.0] * 3
+    gyro, stds = recording.gyro.copy(), list[float | None]()
     edges = np.array([first for first, _ in recording.segments[1:]], dtype=int)
     for column, limit in zip(gyro.T, np.broadcast_to(limits, 3), strict=True):
         lost = (np.abs(column) >= limit) | clipped(column)
+        std: float | None = 0.0
         if limit > 0 and lost.any():
             column[:], std = _drawn(Axis(column.copy(), float(limit), lost, edges))
-            unknown |= std is None
-            off.append(std or 0.0)
-    if max(off) == 0:
-        return recording, 0.0
-    least = USUAL["lost_rate_std"] if unknown else 0.0
-    return replace(recording, gyro=gyro), max(*off, least)
+        stds.append(std)
+    return replace(recording, gyro=gyro) if any(stds) else recording, stds
 
 
 def _drawn(axis: Axis) -> tuple[np.ndarray, float | None]:

@@ -13,6 +13,8 @@ from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.rest import Rest
 from pyimu.block.block import Block
 from pyimu.block.parameters import number, with_values
+from pyimu.errors import Finding
+from pyimu.ins.crabbing import Crabbing, crabbing
 from pyimu.ins.filter.ins_block import ins_of_log
 from pyimu.ins.filter.layout import Layout
 from pyimu.ins.filtered import Filtered, filtered
@@ -30,6 +32,11 @@ COURSE_STD = 0.1
 """rad; standard deviation of a heading that is a course: a body may stand askew on its vehicle, and
 its way bend. Assumed."""
 
+
+PASSES = 2
+"""Smoothed paths by which the errors of positions that last are measured. That of errors which do
+not last follows them, and what is left of them seems to last half as long again; the next paths
+are those of what was found before."""
 
 LATER_STD = 1e-3
 """rad; standard deviation of a heading that the log has, as the filter takes one of the first
@@ -56,11 +63,28 @@ class Job:
     live: bool
     fixes: Fixes | None
     settings: Mapping[str, Any]
+    wheels: bool = False
     lasting: Lasting | None = None
+    crabs: Crabbing | None = None
 
     @cached_property
     def layout(self) -> Layout:
-        return Layout(self.part, self.nhc, self.live, lasting=self.lasting is not None)
+        lasts = {"lasting": self.lasting is not None, "wheels": self.wheels}
+        return Layout(self.part, self.nhc, self.live, **lasts)
+
+    @property
+    def speeds(self) -> bool:
+        """Whether the recording has measured speeds."""
+        speed = self.recording.speed
+        return speed is not None and bool(np.isfinite(speed).any())
+
+    @property
+    def late(self) -> float:
+        """How many s a measured speed may be late: one that is counted from one to the next is that
+        of the middle between them.
+        """
+        at = self.recording.time[np.isfinite(self.recording.speed)]
+        return float(np.median(np.diff(at))) / 2 if len(at) > 1 else 0.0
 
     @property
     def block(self) -> Block:
@@ -71,7 +95,9 @@ class Job:
         values = {"latitude": self.latitude, "gravity": self.gravity, "detect": float(self.live)}
         fixes = {} if self.fixes is None else self.fixes.settings
         lasts = {} if self.lasting is None else self.lasting.settings
-        told = fixes | lasts | start.settings | dict(self.settings)
+        wheels = {"speed_late_std": self.late} if self.speeds else {}
+        wheels |= {} if self.crabs is None else self.crabs.settings
+        told = fixes | lasts | wheels | start.settings | dict(self.settings)
         return with_values(self.block, values | told)
 
     def told(self, start: Start) -> dict[str, Any]:
@@ -101,10 +127,27 @@ class Job:
         """
         if self.fixes is None or not too_small(found, self.fixes):
             return self
-        lasts = lasting(self.fixes, self.smoothed(start, say), self._arm(start))
-        if lasts is None:
+        job = self
+        for _ in range(PASSES):
+            lasts = lasting(self.fixes, job.smoothed(start, say), self._arm(start))
+            if lasts is None:
+                return self
+            job = replace(self, fixes=lasts.rest(self.fixes), lasting=lasts)
+        return job
+
+    def with_crabbing(self, start: Start, say: Callable[..., None]) -> Job:
+        """The job with how its vehicle crabs; itself where no positions tell."""
+        if not self.nhc or self.fixes is None or not len(self.fixes.rows):
             return self
-        return replace(self, fixes=lasts.rest(self.fixes), lasting=lasts)
+        free = replace(self, nhc=False).smoothed(start, say)
+        return replace(self, crabs=crabbing(free, self.recording.gyro[:, 2]))
+
+    @property
+    def of_errors(self) -> list[Finding]:
+        """What lasts of errors."""
+        lasts = [] if self.lasting is None else [self.lasting.finding]
+        crabs = [] if self.crabs is None or not self.crabs.std else [self.crabs.finding]
+        return [*lasts, *crabs]
 
     def _arm(self, start: Start) -> np.ndarray:
         """From the sensor to the antenna (3,) m, body axes."""

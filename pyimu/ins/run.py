@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from pyimu.attitude.beyond_range import by_axis
 from pyimu.attitude.columns import latitude_of
 from pyimu.attitude.contradicted import contradicted, without
 from pyimu.block.parameters import number
@@ -97,12 +98,13 @@ def run(
     job = _job(recording, declared, zupt, given, findings)
     measured = _measured(job, zupt, fixes, told, limits["top_speed"])
     job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
+    job = replace(job, wheels=nhc or job.speeds)
     reference = reference_of(recording)
     found, start = job.started(heading0, reference)
-    job = job.with_lasting(found, start, say)
-    if job.lasting is not None:
+    job = job.with_lasting(found, start, say).with_crabbing(start, say)
+    if job.lasting is not None or job.crabs is not None:
         found = job.filtered(start)
-        findings.append(job.lasting.finding)
+        findings += job.of_errors
     findings += _of_fixes(job, found, start, zupt)
     if nhc:
         free = replace(job, nhc=False).filtered(start)
@@ -182,10 +184,21 @@ def _job(
         rest = replace(rest, seen=False)  # a steady drive, as the part's noise shows
     findings += [*checks.findings(recording, rest, gravity), *turns]
     updates = float(zupt != "off")
-    settings = {"zupt": updates, "zaru": updates} | given
-    return Job(
-        recording, clean, part, rest, still, 0.0, gravity, False, zupt == "live", None, settings
-    )
+    drawn, stds = by_axis(recording, part)
+    clipped = _clipped(recording, stds, number("top_turn_rate", given["top_turn_rate"]))
+    settings = {"zupt": updates, "zaru": updates} | clipped | given
+    return Job(drawn, clean, part, rest, still, 0.0, gravity, False, zupt == "live", None, settings)
+
+
+def _clipped(recording: Recording, stds: list[float | None], top_turn_rate: float) -> dict:
+    """The filter's parameters of how far off the rates at the gyro's limit may be.
+
+    Where nothing tells how they go on beyond it: by the top turn rate, and by the limit of a body
+    that turns faster than that.
+    """
+    most = np.nanmax(np.abs(recording.gyro), axis=0)
+    off = [max(top_turn_rate, m) if std is None else std for std, m in zip(stds, most, strict=True)]
+    return {f"clipped_rate_std[{i + 1}]": float(std) for i, std in enumerate(off)}
 
 
 def _tracks(

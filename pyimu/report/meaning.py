@@ -13,6 +13,7 @@ MEANING = {
         "need"
     ),
     "coning": "it turns far between two samples: a higher sample rate would show how",
+    "crabbing": "a vehicle moves askew for seconds, by an angle that positions show",
     "constant_channel": "one value all the time: is the axis dead, or not connected?",
     "counter_wrapped": "the counter of the times began anew: they run on where it did",
     "counts": "whole numbers alone: are these counts? A column map can give the unit of one",

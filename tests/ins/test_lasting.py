@@ -8,6 +8,7 @@ from navigation_cases import calibrated, declared, noisy, perfect, white
 from scipy.stats import chi2
 
 from pyimu.ins import run
+from pyimu.ins.lasting import _fitted
 from pyimu.rover.trajectory import Drive
 
 DRIVE = Drive(legs=4, side=150.0, speed=10.0, first_rest=5.0, stops=0.0, turn_rate=0.3, ramp=4.0)
@@ -74,3 +75,13 @@ def test_errors_that_do_not_last_are_taken_as_new(truth):
     for seed in range(3):
         found, _ = navigated(truth, seed, 1.0)
         assert not [f for f in found.findings if f.kind == "lasting_fixes"]
+
+
+@pytest.mark.parametrize("time", (3.0, 10.0, 30.0))
+def test_a_time_constant_is_that_of_an_exponential(time):
+    """By a line through the spans up to 5 s that of 10 s was 1.4 times as long."""
+    spans = np.arange(1.0, 6.0)
+    halves = 0.2 + 0.8 * (1 - np.exp(-spans / time))
+    found, share = _fitted(spans, halves, (0.5, 120.0))
+    assert found == pytest.approx(time, rel=0.02)
+    assert share == pytest.approx(0.2, abs=0.01)

@@ -121,7 +121,7 @@ def _recorded_names(layout: Layout) -> tuple[Variable, ...]:
 def _step(layout: Layout, recorded: bool) -> ca.Function:
     sizes = {"s": layout.state, "u": len(layout.inputs), "p": len(layout.parameters), "h": 1}
     s, u, p, h = (ca.MX.sym(name, size) for name, size in sizes.items())
-    x, memory, rate, status, rest, unturned, transition = _predict(layout)(s, u, p, h)
+    x, memory, rate, force, status, rest, unturned, transition = _predict(layout)(s, u, p, h)
     n, begun = layout.errors, s[layout.begun]
     starts = ca.logic_and(begun <= 0, memory[layout.begun - layout.packed] > 0)
     x = where(starts, _first(layout), x, memory, p)
@@ -139,7 +139,7 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
         free = ca.logic_and(ca.logic_not(still), ca.logic_and(setting("nhc"), begun > 0))
         work = where(ca.logic_and(free, status <= 0), _nhc(layout), work, rate, p, h)
     measured = u[SPEED_VALID] + u[POSITION_VALID] + u[VELOCITY_VALID] > 0.5
-    work = where(measured, _measured(layout), work, u, rate, p, h)
+    work = where(measured, _measured(layout), work, u, rate, force, p, h)
     after = work[: layout.packed]
     y = _finish(layout)(work, p, status, still)
     if recorded:
@@ -155,7 +155,7 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
 
 
 def _predict(layout: Layout) -> ca.Function:
-    """``s, u, p, h -> x, memory, rate, status, still, unturned, transition``, to the updates."""
+    """``s, u, p, h -> x, memory, rate, force, status, still, unturned, transition``, to updates."""
     s = ca.SX.sym("s", layout.state)
     u, p, h = (
         ca.SX.sym(name, size)
@@ -173,7 +173,7 @@ def _predict(layout: Layout) -> ca.Function:
         "predict",
         [s, u, p, h],
         [
-            *(packed, kept, sample.rate, sample.lost),
+            *(packed, kept, sample.rate, sample.force, sample.lost),
             *(sample.still, sample.unturned, ca.densify(transition[:])),
         ],
         OPTIONS,
@@ -225,10 +225,11 @@ def _nhc(layout: Layout) -> ca.Function:
 
 
 def _speed(layout: Layout) -> ca.Function:
-    def correct(x: State, speed, variance, p):
-        return updates.by_speed(layout, x, speed, variance, prediction.settings_of(layout, p))
+    def correct(x: State, speed, variance, rate, force, p, h):
+        settings = prediction.settings_of(layout, p)
+        return updates.by_speed(layout, x, speed, variance, (rate, force), settings, h)
 
-    return _update(layout, "by_speed", "speed", correct, 1, 1, len(layout.parameters))
+    return _update(layout, "by_speed", "speed", correct, 1, 1, 3, 3, len(layout.parameters), 1)
 
 
 def _position(layout: Layout) -> ca.Function:
@@ -248,17 +249,18 @@ def _velocity(layout: Layout) -> ca.Function:
 
 
 def _measured(layout: Layout) -> ca.Function:
-    """``work, u, rate, p, h -> work`` of what was measured beside rate and force."""
+    """``work, u, rate, force, p, h -> work`` of what was measured beside these."""
     work = begun = ca.MX.sym("w", layout.packed + REPORT + layout.errors)
-    u, rate = ca.MX.sym("u", len(layout.inputs)), ca.MX.sym("rate", 3)
+    u = ca.MX.sym("u", len(layout.inputs))
+    rate, force = ca.MX.sym("rate", 3), ca.MX.sym("force", 3)
     p, h = ca.MX.sym("p", len(layout.parameters)), ca.MX.sym("h")
     for valid, function, value, variance, more in (
-        (SPEED_VALID, _speed, SPEED, SPEED_VARIANCE, (p,)),
+        (SPEED_VALID, _speed, SPEED, SPEED_VARIANCE, (rate, force, p, h)),
         (VELOCITY_VALID, _velocity, MEASURED_VELOCITY, VELOCITY_VARIANCE, (rate, p, h)),
         (POSITION_VALID, _position, POSITION, POSITION_VARIANCE, (p,)),
     ):
         work = where(u[valid] > 0.5, function(layout), work, u[value], u[variance], *more)
-    return plain_function("measured", [begun, u, rate, p, h], [work])
+    return plain_function("measured", [begun, u, rate, force, p, h], [work])
 
 
 def _finish(layout: Layout) -> ca.Function:

@@ -12,7 +12,7 @@ import numpy as np
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.block.variables import Variable
 from pyimu.ins.filter import rest_judged, rest_window
-from pyimu.ins.filter.variables import INPUTS, LASTING, OWN_PARAMETERS
+from pyimu.ins.filter.variables import INPUTS, LASTING, OWN_PARAMETERS, WHEELS
 from pyimu.model.part import Part, input_variables
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic.linear import pack, unpack
@@ -86,8 +86,10 @@ class State:
     and gravity; ``gains`` (g,) in the order of ``Layout.gains``; ``mounting`` (2,) rad, by which
     the vehicle's axes are pitched and turned against the body's; ``centre`` (3,) m is the place
     about which the heading's error turns the position: where the last measured position was, else
-    the start; ``lasting`` (3,) m is the error of measured positions that lasts; ``covariance``
-    (n, n).
+    the start; ``wheels`` (5,) are the error of the
+    measured speed's scale, 1, by how many s it is late, how far the point that does not slip lies
+    from where it was told along and across the body, m, and the angle by which the vehicle crabs,
+    rad; ``lasting`` (3,) m is the error of measured positions that lasts; ``covariance`` (n, n).
     """
 
     q: ca.SX
@@ -97,6 +99,7 @@ class State:
     resting: ca.SX
     gains: ca.SX
     mounting: ca.SX
+    wheels: ca.SX
     lasting: ca.SX
     centre: ca.SX
     covariance: ca.SX
@@ -108,7 +111,8 @@ class Layout:
     ``detects`` whether it finds rests by itself.
 
     ``mounting_std`` rad is how well the vehicle's axes are known in those of the body; where
-    errors of positions are ``lasting``, that part of them is estimated.
+    errors of positions are ``lasting``, that part of them is estimated, and where the body has
+    ``wheels``, what these measure and where they are.
     """
 
     part: Part
@@ -116,6 +120,7 @@ class Layout:
     detects: bool = False
     mounting_std: float = 0.02
     lasting: bool = False
+    wheels: bool = False
 
     @cached_property
     def compensation(self) -> Compensation:
@@ -128,7 +133,7 @@ class Layout:
     @property
     def errors(self) -> int:
         """Numbers of the error state."""
-        return self.mounting.stop + 3 * self.lasting
+        return self.of_wheels.stop + 3 * self.lasting
 
     @property
     def mounting(self) -> slice:
@@ -137,9 +142,19 @@ class Layout:
         return slice(first, first + 2 * self.nhc)
 
     @property
+    def of_wheels(self) -> slice:
+        """Where the error state has that of ``State.wheels``; empty without it."""
+        return slice(self.mounting.stop, self.mounting.stop + 5 * self.wheels)
+
+    @property
+    def crabs(self) -> int:
+        """Where the error state has the angle by which the vehicle crabs, the last of these."""
+        return self.of_wheels.stop - 1
+
+    @property
     def of_positions(self) -> slice:
         """Where the error state has that of ``State.lasting``; empty without it."""
-        return slice(self.mounting.stop, self.errors)
+        return slice(self.of_wheels.stop, self.errors)
 
     @property
     def nominal(self) -> int:
@@ -160,7 +175,8 @@ class Layout:
     @property
     def own_parameters(self) -> tuple[Variable, ...]:
         """The filter's own, before the coefficients of the part's sensors."""
-        return (*OWN_PARAMETERS, *(LASTING if self.lasting else ()))
+        more = (*(WHEELS if self.wheels else ()), *(LASTING if self.lasting else ()))
+        return (*OWN_PARAMETERS, *more)
 
     @cached_property
     def parameters(self) -> tuple[Variable, ...]:
@@ -201,9 +217,8 @@ class Layout:
         return ca.densify(ca.vertcat(*values[:-1], pack(x.covariance)))
 
     def unpack(self, column) -> State:
-        ends = np.cumsum(
-            [0, 4, 3, 3, 3, 3, len(self.gains), 2 * self.nhc, 3 * self.lasting, 3]
-        ).tolist()
+        more = 2 * self.nhc, 5 * self.wheels, 3 * self.lasting
+        ends = np.cumsum([0, 4, 3, 3, 3, 3, len(self.gains), *more, 3]).tolist()
         nominal = ca.vertsplit(column[: self.nominal], ends)
         return State(*nominal, unpack(column[self.nominal : self.packed], self.errors))
 

@@ -100,7 +100,8 @@ of which a rest takes off what came before."""
 class Sample:
     """A row: what was measured, in place of a missing number its last good one (``held``); ``rate``
     and ``force`` (3,) without the part's errors; which axes of the gyro (3,) and whether the
-    accelerometer are ``lost``, 0 or 1; whether the body is at rest (``still``), does not turn
+    accelerometer are ``lost``, 0 or 1, and which of the gyro's have a number (``there``): the lost
+    ones among them are beyond their range; whether the body is at rest (``still``), does not turn
     (``unturned``), or is now seen to have ``left`` a rest; whether its position is measured
     (``placed``); the compensation's memory, the window's, and what judges it.
     """
@@ -110,6 +111,7 @@ class Sample:
     force: ca.SX
     gyro_lost: ca.SX
     accel_lost: ca.SX
+    there: ca.SX
     still: ca.SX
     unturned: ca.SX
     left: ca.SX
@@ -159,7 +161,8 @@ def read(layout: Layout, memory: Memory, q, bias, u, settings: Settings, h) -> S
     rate = bias + fades * (rate - bias)
     kept = sensors, memory.window, memory.judged
     none, placed = ca.SX(0), u[POSITION_VALID] > 0.5
-    return Sample(held, rate, force, gyro_lost, accel_lost, still, still, none, placed, *kept)
+    lost = gyro_lost, accel_lost, good[GYRO]
+    return Sample(held, rate, force, *lost, still, still, none, placed, *kept)
 
 
 def with_rest(
@@ -236,9 +239,9 @@ def predicted(
     changes = by_gains, known - memory.counted, wander.by_turn(shift)
     transition = _transition(layout, step, changes, settings, h)
     transition[POSITION, HEADING] += shifted
-    fades = ca.exp(-h / settings.scalar["position_lasting_time"]) if layout.lasting else 1
-    kept = layout.of_positions
-    transition[kept, kept] = fades * transition[kept, kept]
+    fades = _fades(layout, settings, h)
+    for place, share in fades.items():
+        transition[place, place] = share
     both = transition @ x.covariance @ transition.T + _noise(layout, step, settings, h)
     both[UP, UP] = both[UP, UP] + _bending(x.covariance, both, settings)
     both[PLANE, PLANE] = both[PLANE, PLANE] + h * _bow(x, step)
@@ -248,7 +251,7 @@ def predicted(
             both[place, place] = both[place, place] + sample.left * size**2 * ca.SX.eye(3)
     covariance = symmetric(layout.errors, lambda i, j: both[i, j])
     moves = {"q": q, "velocity": velocity, "position": position, "resting": resting}
-    x = replace(x, **moves, lasting=fades * x.lasting, covariance=covariance)
+    x = _faded(layout, replace(x, **moves, covariance=covariance), fades)
     return _unseen(x, step, memory, sample, settings, h), transition, (mean_rate, known)
 
 
@@ -389,25 +392,51 @@ def _noise(layout: Layout, step: Step, settings: Settings, h) -> ca.SX:
     for place, noise in ((GYRO_BIAS, settings.gyro), (RESTING, settings.accel)):
         q[place, place] = q[place, place] + h * axes @ ca.diag(noise.walk**2) @ axes.T
     q[UP, UP] = q[UP, UP] + h * step.wander.noise
-    if layout.lasting:
-        size, time = (settings.scalar[f"position_lasting_{n}"] for n in ("std", "time"))
-        own = layout.of_positions
-        q[own, own] = size**2 * (1 - ca.exp(-2 * h / time)) * ca.SX.eye(3)
+    sizes = {"position_lasting": range(layout.of_positions.start, layout.of_positions.stop)}
+    sizes |= {"crab": [layout.crabs]} if layout.wheels else {}
+    fades = _fades(layout, settings, h)
+    for name, places in sizes.items():
+        for place in places:
+            q[place, place] = settings.scalar[f"{name}_std"] ** 2 * (1 - fades[place] ** 2)
     return q
+
+
+def _fades(layout: Layout, settings: Settings, h) -> dict:
+    """By its place the share that is left, after a step, of each error that is forgotten."""
+    places = {}
+    if layout.wheels:
+        places[layout.crabs] = ca.exp(-h / settings.scalar["crab_time"])
+    if layout.lasting:
+        share = ca.exp(-h / settings.scalar["position_lasting_time"])
+        of_positions = range(layout.of_positions.start, layout.of_positions.stop)
+        places |= dict.fromkeys(of_positions, share)
+    return places
+
+
+def _faded(layout: Layout, x: State, fades: dict) -> State:
+    """The estimate with what is forgotten of it in a step."""
+    changed = {}
+    if layout.wheels:
+        changed["wheels"] = ca.vertcat(x.wheels[:-1], fades[layout.crabs] * x.wheels[-1])
+    if layout.lasting:
+        changed["lasting"] = fades[layout.of_positions.start] * x.lasting
+    return replace(x, **changed)
 
 
 def _unseen(x: State, step: Step, memory: Memory, sample: Sample, settings: Settings, h) -> State:
     """The estimate, less sure by what the body may have done while sensors were lost.
 
     After T s without the rate of an axis the attitude may be off about it by the top turn rate
-    times T, half a turn at most; without a force the velocity by the top acceleration times T, and
+    times T, half a turn at most, and beyond the range by T times what the rates there may be off;
+    without a force the velocity by the top acceleration times T, and
     once that is the top speed, nothing is known of the velocity but that: the position is then off
     by T times it.
     """
     at, p = settings.scalar, x.covariance
     turned, gone = _gone_for(memory, sample, h)
-    angle = at["top_turn_rate"] * turned
-    wider = ca.if_else(angle < ca.pi, at["top_turn_rate"] ** 2 * _growth(turned, h), 0)
+    off = ca.vertcat(*[at[f"clipped_rate_std[{i}]"] for i in (1, 2, 3)])
+    rate = ca.if_else(sample.there * (off > 0), off, at["top_turn_rate"])
+    wider = ca.if_else(rate * turned < ca.pi, rate**2 * _growth(turned, h), 0)
     # An axis that lies askew by a degree or two makes a tilt of a large turn. As one error the
     # two would let a tilt that is seen at the next rest tell the turn, fifty times as large.
     wider = (step.axes**2) @ wider

@@ -13,6 +13,9 @@ from pyimu.ins.filter.layout import BASE, GYRO_BIAS, POSITION, RESTING, TURN, La
 from pyimu.ins.filter.weight import in_world, upright_of
 from pyimu.symbolic import quaternion
 
+OF_WHEELS = ("speed_scale_std", "speed_late_std", *["lever_arm_std"] * 2, "crab_std")
+"""Parameters that say how far each of ``State.wheels`` may be off."""
+
 
 def first(layout: Layout, force, settings: Settings) -> State:
     """The estimate at the first sample: level by its ``force`` (3,), at the origin, at rest."""
@@ -43,6 +46,7 @@ def _begun(layout: Layout, q, settings: Settings) -> State:
         *three("accel_bias_std0"),
         *[gain.std for gain in layout.gains],
         *[layout.mounting_std] * (2 * layout.nhc),
+        *[at[name] for name in OF_WHEELS * layout.wheels],
         *[at["position_lasting_std"] for _ in range(3 * layout.lasting)],
     )
     none, upright = ca.SX.zeros(3), upright_of(settings)
@@ -58,8 +62,8 @@ def _begun(layout: Layout, q, settings: Settings) -> State:
         # the first position is the origin, which is off by its error
         spread[POSITION, layout.of_positions] = -ca.SX.eye(3)
     covariance = spread @ ca.diag(std**2) @ spread.T
-    mounting, lasting = ca.SX.zeros(2 * layout.nhc), ca.SX.zeros(3 * layout.lasting)
-    known = (q, none, none, none, resting, gains, mounting, lasting, none)
+    more = [ca.SX.zeros(n) for n in (2 * layout.nhc, 5 * layout.wheels, 3 * layout.lasting)]
+    known = (q, none, none, none, resting, gains, *more, none)
     return State(*known, ca.densify(covariance))
 
 

@@ -77,6 +77,7 @@ def changed(layout: Layout, x: State, error) -> State:
         resting=x.resting + quaternion.rotate(back, error[RESTING]),
         gains=x.gains + error[gains],
         mounting=x.mounting + error[layout.mounting],
+        wheels=x.wheels + error[layout.of_wheels],
         lasting=x.lasting + error[layout.of_positions],
     )
 
@@ -133,9 +134,11 @@ def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
     """
     at = settings.scalar
     back = quaternion.to_matrix(quaternion.conjugate(x.q))
-    arm = _arm(settings, "lever_arm")
+    arm = _lever_arm(layout, x, settings)
     speed = back @ x.velocity + ca.cross(rate - x.gyro_bias, arm)
     pitched, turned = x.mounting[0], x.mounting[1]
+    if layout.wheels:
+        turned = turned + x.wheels[-1]
     of_speed = ca.vertcat(ca.horzcat(-turned, 1, 0), ca.horzcat(pitched, 0, 1))
     slope = _slope(
         layout,
@@ -145,17 +148,40 @@ def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
     )
     slope[0, layout.mounting.start + 1] = -speed[0]
     slope[1, layout.mounting.start] = speed[0]
+    if layout.wheels:
+        by_arm = of_speed @ ca.skew(rate - x.gyro_bias)
+        slope[:, layout.of_wheels.start + 2 : layout.crabs] = by_arm[:, :2]
+        slope[0, layout.crabs] = -speed[0]
     own = settings.gyro.white**2 * reciprocal(h)
     of_arm = (of_speed @ ca.skew(arm)) ** 2 @ own
     noise = at["nhc_std"] ** 2 * ca.fmax(2 * at["nhc_time"] * reciprocal(h), 1) + of_arm
     return corrected_by(layout, x, -of_speed @ speed, slope, noise, settings)
 
 
-def by_speed(layout: Layout, x: State, speed, variance, settings: Settings) -> tuple:
-    """A measured speed along the body's x axis."""
+def by_speed(
+    layout: Layout, x: State, speed, variance, motion: tuple, settings: Settings, h
+) -> tuple:
+    """A measured speed along the body's x axis, of the point that does not slip.
+
+    The ``motion`` is rate and force (3,). A speed that is counted over an interval is that of the
+    interval's middle: it is late, and beside an acceleration that is no noise.
+    """
+    rate, force = motion
+    arm, turns = _lever_arm(layout, x, settings), rate - x.gyro_bias
     back = quaternion.to_matrix(quaternion.conjugate(x.q))
-    slope = _slope(layout, 1, velocity=back[0, :])
-    return corrected_by(layout, x, speed - back[0, :] @ x.velocity, slope, variance, settings)
+    along = back[0, :]
+    moves = along @ x.velocity + ca.cross(turns, arm)[0]
+    scale = 1
+    if layout.wheels:
+        scale, pushed = 1 + x.wheels[0], (force - x.resting)[0]
+        moves = moves - x.wheels[1] * pushed
+    by_bias = scale * ca.skew(arm)[0, :]
+    slope = _slope(layout, 1, velocity=scale * along, gyro_bias=by_bias @ back)
+    if layout.wheels:
+        of_arm = scale * ca.skew(turns)[0, :2]
+        slope[0, layout.of_wheels] = ca.horzcat(moves, -scale * pushed, of_arm, 0)
+    noise = variance + by_bias**2 @ (settings.gyro.white**2 * reciprocal(h))
+    return corrected_by(layout, x, speed - scale * moves, slope, noise, settings)
 
 
 def by_position(layout: Layout, x: State, position, variance, settings: Settings) -> tuple:
@@ -189,6 +215,12 @@ def by_velocity(layout: Layout, x: State, velocity, variance, rate, settings: Se
     by_arm = ca.mmax(settings.gyro.white) ** 2 * reciprocal(h) * ca.sumsqr(arm)
     off, noise = _of_known_axes(velocity - moves, variance + by_arm)
     return corrected_by(layout, x, off, slope, noise, settings)
+
+
+def _lever_arm(layout: Layout, x: State, settings: Settings) -> ca.SX:
+    """From the sensor to the point that does not slip (3,) m, as it is known."""
+    told = _arm(settings, "lever_arm")
+    return told + ca.vertcat(x.wheels[2:4], 0) if layout.wheels else told
 
 
 def _arm(settings: Settings, name: str) -> ca.SX:

@@ -126,6 +126,15 @@ SETTINGS = (
             "from the sensor to the antenna of which position and velocity are measured, body axes",
         )
     ),
+    *(
+        replace(v, minimum=0.0)
+        for v in array(
+            "clipped_rate_std",
+            "rad/s",
+            "standard deviation of the rates beyond the gyro's limit, as one that stays the same; "
+            "0: `top_turn_rate`",
+        )
+    ),
     _setting("top_speed", "m/s", "largest speed; what a gap in the samples may hide", 2.0, 1e-3),
     _setting("top_acceleration", "m/s^2", "largest acceleration, likewise", 5.0, 1e-3),
     _setting("top_turn_rate", "rad/s", "largest turn rate, likewise", 2.0, 1e-3),
@@ -138,6 +147,22 @@ OWN_PARAMETERS = (
     *SETTINGS,
 )
 """The filter's own parameters; the coefficients of the part's sensors follow."""
+
+WHEELS = (
+    _fixed("speed_scale_std", "1", "standard deviation of the measured speed's scale factor", 0.02),
+    _fixed("speed_late_std", "s", "standard deviation of how late it is", 0.0),
+    _fixed(
+        "lever_arm_std",
+        "m",
+        "standard deviation of the lever arm's end, along and across the body",
+        0.1,
+    ),
+    _setting("crab_std", "rad", "standard deviation of the angle by which the vehicle crabs", 0.01),
+    _setting("crab_time", "s", "time constant with which that changes", 10.0, 1e-3),
+)
+"""Those of a filter that estimates what lasts of the errors of wheels. Worn or less inflated ones
+are some percent smaller; a lever arm that is not told is 0 and some centimetres; a wheel that
+is pushed to the side by 3 m/s^2 moves askew by a hundredth. Assumed."""
 
 LASTING = (
     _setting("position_lasting_std", "m", "standard deviation of a position's lasting error", 1.0),

@@ -286,6 +286,12 @@ def _fixes(a: Outcome) -> Iterator[str]:
                 f"{quantity(f.detail['time'], 's')} were estimated beside new ones of "
                 f"{quantity(f.detail['new'], 'm')} each time"
             )
+        if f.kind == "crabbing":
+            yield (
+                "The vehicle crabs: by the measured positions it moves askew to its axis by "
+                f"{quantity(np.degrees(f.detail['std']), 'deg')} (1 std), which lasts for "
+                f"{quantity(f.detail['time'], 's')}; the constraint claims no more than that"
+            )
         if f.kind not in FIXES:
             continue
         stands = a.zupt == "foot" and f.column == "velocity"
