@@ -23,6 +23,10 @@ LEAST_FRAMES = 30
 """Least number of frames (three inputs explain 3/30 of noise by chance)."""
 
 
+TOGETHER = 1 << 16
+"""Numbers of which frames are transformed at once: as many as the cache holds."""
+
+
 def trusted_band(
     time: np.ndarray, gyro: np.ndarray | None, rate: np.ndarray, limit: float
 ) -> float:
@@ -62,34 +66,46 @@ def coherence(
     both = np.column_stack([y, x])
     for seconds in FRAMES:
         length = max(16, round(seconds / period))
-        frames = _frames(time, both, length, period)
-        if len(frames) >= LEAST_FRAMES:
-            return np.fft.rfftfreq(length, period), _explained(frames, y.shape[1])
+        starts = _starts(time, both, length, period)
+        if len(starts) >= LEAST_FRAMES:
+            share = _explained(both, starts, length, y.shape[1])
+            return np.fft.rfftfreq(length, period), share
     return np.zeros(0), None
 
 
-def _explained(frames: np.ndarray, p: int) -> np.ndarray:
-    """The share (f,) of the power in the first ``p`` columns that the other columns explain.
-
-    ``frames`` is (k, length, p + q).
+def _explained(values: np.ndarray, starts: np.ndarray, length: int, p: int) -> np.ndarray:
+    """The share (f,) of the power in the first ``p`` columns of values (n, p + q) that the other
+    columns explain, in frames that begin at ``starts`` (k,).
     """
-    pieces = np.ascontiguousarray(frames.transpose(2, 0, 1))
-    pieces -= pieces.mean(axis=-1, keepdims=True)
-    pieces *= np.hanning(pieces.shape[-1])
-    spectrum = np.ascontiguousarray(np.fft.rfft(pieces).transpose(2, 0, 1))
-    s = spectrum.conj() @ spectrum.transpose(0, 2, 1)
+    s = _cross_spectra(values, starts, length)
     explained = s[:, :p, p:] @ np.linalg.pinv(s[:, p:, p:], hermitian=True) @ s[:, p:, :p]
     total = np.trace(s[:, :p, :p], axis1=1, axis2=2).real
     return np.trace(explained, axis1=1, axis2=2).real / np.where(total > 0, total, np.inf)
 
 
-def _frames(time: np.ndarray, values: np.ndarray, length: int, period: float) -> np.ndarray:
-    """Half-overlapping frames (k, length, columns) without gap and without missing sample."""
+def _cross_spectra(values: np.ndarray, starts: np.ndarray, length: int) -> np.ndarray:
+    """Sums (f, c, c) over frames of the products of the columns' transforms, the first conjugated;
+    as many frames at once as the cache holds.
+    """
+    columns = np.ascontiguousarray(values.T)
+    frames = np.lib.stride_tricks.sliding_window_view(columns, length, axis=1)
+    window, many = np.hanning(length), max(1, TOGETHER // (length * len(columns)))
+    s = np.zeros((length // 2 + 1, len(columns), len(columns)), dtype=complex)
+    for first in range(0, len(starts), many):
+        pieces = frames[:, starts[first : first + many]]
+        pieces -= pieces.mean(axis=-1, keepdims=True)
+        pieces *= window
+        z = np.ascontiguousarray(np.fft.rfft(pieces).transpose(2, 0, 1))
+        s += z.conj() @ z.transpose(0, 2, 1)
+    return s
+
+
+def _starts(time: np.ndarray, values: np.ndarray, length: int, period: float) -> np.ndarray:
+    """First rows (k,) of half-overlapping frames without gap and without missing sample."""
     starts = np.arange(0, max(len(time) - length + 1, 0), length // 2)
     good = np.concatenate(([0], np.cumsum(~np.all(np.isfinite(values), axis=1))))
     whole = good[starts + length] == good[starts]
     regular = (
         np.abs(time[starts + length - 1] - time[starts] - (length - 1) * period) < 0.5 * period
     )
-    rows = starts[whole & regular][:, None] + np.arange(length)
-    return values[rows]
+    return starts[whole & regular]
