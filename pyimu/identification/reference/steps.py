@@ -24,6 +24,9 @@ LARGEST = 3
 
 ROUNDS = 20
 
+ROUNDING = 1e-12
+"""Share of a step's squares below which what a line leaves of it is rounding."""
+
 
 @dataclass(frozen=True)
 class Line:
@@ -150,13 +153,23 @@ def _likelihood(left: np.ndarray, std: np.ndarray) -> tuple[float, float]:
 
 
 def _one_step(time, values, std) -> Line | None:
-    """The best line with a single step, wherever it is."""
-    none = np.zeros(len(time), dtype=bool)
-    lines = [
-        _fitted(time, values, std, (np.arange(len(time)) >= k).astype(np.int64), none)
-        for k in range(1, len(time))
-    ]
-    return max((one for one in lines if one is not None), key=lambda o: o.likelihood, default=None)
+    """The best line with a single step, wherever it is: that which takes most off the squares that
+    a line leaves.
+
+    What a line leaves of a step is the step less its projection, so that sums from the step on are
+    enough (Frisch and Waugh 1933).
+    """
+    if len(time) < 2:
+        return None
+    line, _ = np.linalg.qr(np.column_stack([np.ones(len(time)), time]) / std[:, None])
+    left = values / std - line @ (line.T @ (values / std))
+    seen, power, across = (
+        np.cumsum(v[::-1], axis=0)[::-1] for v in (left / std, std**-2.0, line / std[:, None])
+    )
+    own = power - np.sum(across**2, axis=1)
+    taken = np.where(own > ROUNDING * power, seen**2 / np.maximum(own, 1e-300), 0.0)
+    number = (np.arange(len(time)) > np.argmax(taken[1:])).astype(np.int64)
+    return _fitted(time, values, std, number, np.zeros(len(time), dtype=bool))
 
 
 def _by_jumps(time, values, std) -> list[Line]:
