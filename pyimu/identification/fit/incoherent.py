@@ -9,6 +9,7 @@ end, where the high differences of a reference show nothing of it.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement
 
@@ -59,8 +60,12 @@ FOLDS = 3
 """Multiples of the rate of rows from about which noise is folded into them: of what lies beyond,
 the band lets a few millionths through."""
 
-ROUNDING = 1e-12
-"""Share of the power of signals below which what they differ by is rounding."""
+ROUNDING, PLAINLY = 1e-12, 1e-2
+"""Share of the power of signals below which what they differ by is rounding, and part of the
+reciprocal up to which it plainly is none."""
+
+TOGETHER, BLOCK = 16, 256
+"""Frames that are transformed at once, and frequencies of which matrices are made at once."""
 
 FEWEST_ROWS = 32
 """Rows of a window, of which there must be one frequency within the band at least."""
@@ -163,10 +168,9 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
     short = short_memory(one.residual[:, axes], inputs[: len(trial.axes)], one.segments, bad)
     every = [*short.beyond.T, *inputs, *signal.T, *one.residual[:, axes].T]
     interval = trial.h * trial.band.stride
-    z, frequency = _transforms(every, starts, length, interval), np.fft.rfftfreq(length, interval)
-    beyond, known, whole, left = np.split(z, np.cumsum([len(axes), count, len(axes)]), axis=1)
-    inverse, averaged = _inverse(_products(known, known)), len(starts) / OVERLAP - count
-    by, power = _products(known, beyond), _powers(beyond)
+    frequency, averaged = np.fft.rfftfreq(length, interval), len(starts) / OVERLAP - count
+    seen_in = _means(every, starts, length, interval, (len(axes), len(trial.axes), count))
+    inverse, by, power = _inverse(seen_in.gram), seen_in.by, seen_in.power
     found = {}
     for k, axis in enumerate(axes):
         at = trial.axes.index(axis)
@@ -179,8 +183,8 @@ def unseen_spectra(trial: Trial, one: Linear, own: Mapping[int, RandomWalk]) -> 
         of_share = mine * np.sqrt(unseen * np.maximum(inverse[:, at, at].real, 0.0))
         psd, std = unseen - mine * (1.0 - share), np.hypot(unseen, of_share) / np.sqrt(averaged)
         psd[0] = std[0] = 0.0
-        frames = Frames(left[:, k], known[:, at])
-        shown = _powers(whole[:, [k]])[:, 0]
+        frames = Frames(seen_in.left[:, k], seen_in.own[:, at])
+        shown = seen_in.whole[:, k]
         found[axis] = Spectrum(frequency, psd, std, whole=shown, own=mine, frames=frames)
     return found
 
@@ -206,6 +210,55 @@ def _frames(one: Linear, bad: np.ndarray, count: int) -> tuple[int, list[int]]:
     return length, [s for s in every if not bad[s : s + length].any()]
 
 
+@dataclass(frozen=True)
+class _Means:
+    """Means over n frames of what transforms of signals are together: products ``gram`` (f, c, c)
+    of those that are known, conjugated, with each other and ``by`` (f, c, k) with what is beyond a
+    short memory of them, squares ``power`` (f, k) of the latter and ``whole`` (f, k) of all that
+    the reference shows; beside them the transforms of what is ``left`` (f, k, n) and of the
+    sensor's ``own`` signal (f, s, n).
+    """
+
+    gram: np.ndarray
+    by: np.ndarray
+    power: np.ndarray
+    whole: np.ndarray
+    left: np.ndarray
+    own: np.ndarray
+
+
+def _means(
+    every: list[np.ndarray],
+    starts: list[int],
+    length: int,
+    interval: float,
+    counts: tuple[int, int, int],
+) -> _Means:
+    """The ``_Means`` of signals (m,): of ``counts`` k, s, c the k that are beyond, the c that are
+    known, of which the first s are the sensor's own, and k each of the whole and of what is left.
+
+    A few frames after another: together those of all signals would be most of what a run has in
+    memory.
+    """
+    (k, s, c), count = counts, length // 2 + 1
+    products, squares = np.zeros((count, c, k + c), dtype=complex), np.zeros((count, k, 2))
+    left, own = (np.empty((count, n, len(starts)), dtype=complex) for n in (k, s))
+    for first in range(0, len(starts), TOGETHER):
+        some = starts[first : first + TOGETHER]
+        z = _transforms(every, some, length, interval)
+        for a in range(0, count, BLOCK):
+            known = z[a : a + BLOCK, k : k + c]
+            both = z[a : a + BLOCK, : k + c].transpose(0, 2, 1)
+            products[a : a + BLOCK] += known.conj() @ both
+        squares[:, :, 0] += np.sum(np.abs(z[:, :k]) ** 2, axis=2)
+        squares[:, :, 1] += np.sum(np.abs(z[:, k + c : -k]) ** 2, axis=2)
+        at = slice(first, first + len(some))
+        left[:, :, at], own[:, :, at] = z[:, -k:], z[:, k : k + s]
+    products /= len(starts)
+    squares /= len(starts)
+    return _Means(products[:, :, k:], products[:, :, :k], *squares.transpose(2, 0, 1), left, own)
+
+
 def _transforms(
     every: list[np.ndarray], starts: list[int], length: int, interval: float
 ) -> np.ndarray:
@@ -215,7 +268,6 @@ def _transforms(
     window = hann(length, sym=False)
     window *= np.sqrt(2 * interval / (window @ window))
     z = np.empty((length // 2 + 1, len(every), len(starts)), dtype=complex)
-    # One signal after another: together their frames would be most of what a run has in memory.
     for k, signal in enumerate(every):
         pieces = np.array([signal[s : s + length] for s in starts])
         pieces -= pieces.mean(axis=1, keepdims=True)
@@ -224,21 +276,30 @@ def _transforms(
     return z
 
 
-def _products(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Mean products (f, j, k) of transforms (f, j, n), conjugated, and (f, k, n)."""
-    return one.conj() @ other.transpose(0, 2, 1) / one.shape[2]
-
-
-def _powers(z: np.ndarray) -> np.ndarray:
-    """Mean squares (f, k) of transforms (f, k, n)."""
-    return np.mean(np.abs(z) ** 2, axis=2)
-
-
 def _inverse(matrices: np.ndarray) -> np.ndarray:
-    """The inverses of Hermitian matrices (f, k, k) of signals that differ much in size."""
+    """The inverses of Hermitian matrices (f, c, c) of signals that differ much in size, in the
+    directions that are more than rounding.
+    """
     size = np.sqrt(np.maximum(np.diagonal(matrices, axis1=1, axis2=2).real, 1e-300))
-    scale = size[:, :, None] * size[:, None, :]
-    return np.linalg.pinv(matrices / scale, rcond=ROUNDING, hermitian=True) / scale
+    out = np.empty(matrices.shape, dtype=complex)
+    for a in range(0, len(out), BLOCK):
+        some = slice(a, a + BLOCK)
+        scale = size[some, :, None] * size[some, None, :]
+        out[some] = _inverse_of_alike(matrices[some] / scale) / scale
+    return out
+
+
+def _inverse_of_alike(matrices: np.ndarray) -> np.ndarray:
+    """The same of signals of one size. All directions are plainly more than rounding mostly, since
+    no eigenvalue is less than one over the norm of the inverse; eigenvectors take four times longer
+    than that does.
+    """
+    with suppress(np.linalg.LinAlgError):
+        found = np.linalg.inv(matrices)
+        size = np.linalg.norm(found, axis=(1, 2)) * np.trace(matrices, axis1=1, axis2=2).real
+        if np.all(size < PLAINLY / ROUNDING):
+            return found
+    return np.linalg.pinv(matrices, rcond=ROUNDING, hermitian=True)
 
 
 def _bending(trial: Trial) -> list[np.ndarray]:
