@@ -8,7 +8,6 @@ from functools import cached_property
 from itertools import pairwise, product
 
 import numpy as np
-from scipy.linalg.blas import dgemm
 
 from pyimu.identification.fit.columns import Linear, Stack
 from pyimu.identification.fit.keys import Key
@@ -21,10 +20,6 @@ BATCHES = 80
 
 TOGETHER = 1 << 16
 """Numbers that are whitened at once: as many as the cache holds."""
-
-NARROW = 24
-"""Columns up to which the product of two matrices takes half as long as that of one with itself,
-of which half is left out."""
 
 DEAD = 1e-9
 """Share of a column's power below which what others leave of it is rounding."""
@@ -130,10 +125,7 @@ def _products(white: Filter, residual: np.ndarray, columns: Stack, edges: list[i
         block = white.next(columns.after(residual[a:b, None], a, b))
         for batch in range(first, last):
             rows = block[edges[batch] - a : edges[batch + 1] - a]
-            if width <= NARROW:
-                out[batch] = dgemm(1.0, rows.T, rows.T, trans_b=True)
-            else:
-                np.matmul(rows.T, rows, out=out[batch])
+            np.matmul(rows.T, rows, out=out[batch])
         first = last
     return out
 
