@@ -18,6 +18,7 @@ import numpy as np
 from pyimu.identification.fit.columns import Linear, Stack, band_time
 from pyimu.identification.fit.fit import Fit, Last, power, whitened, whitened_power
 from pyimu.identification.fit.incoherent import CHANCE
+from pyimu.identification.fit.inputs import copied
 from pyimu.identification.fit.normal import DEAD, Normal, normal_equations
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import KINDS, OWN
@@ -36,7 +37,7 @@ def moved(trial: Trial, sign: int) -> Trial:
     """The trial with its reference moved by ``STEP`` of its noise."""
     if trial.noise is None:
         return trial
-    u, more = np.array(trial.u), sign * STEP * trial.noise
+    u, more = copied(trial.u), sign * STEP * trial.noise
     u[:, OWN[trial.kind]] += more
     for a, b in trial.segments:
         if b - a > 1:

@@ -72,6 +72,17 @@ class Inputs:
         return np.array(self.T, dtype=dtype).T
 
 
+def copied(u: np.ndarray) -> np.ndarray:
+    """Inputs (n, N_INPUT) that may be written to, column by column like ``u``: signals that are
+    zero, as most unknown ones are, take no memory until something is put there.
+    """
+    out = np.zeros(u.shape[::-1]).T
+    for k, column in enumerate(u.T):
+        if column.any():
+            out[:, k] = column
+    return out
+
+
 def reference_input(trial: Trial, state: LogState) -> Inputs:
     """Inputs (n, N_INPUT) with the reference turned into the sensor's axes, on the sensor's clock.
 

@@ -59,18 +59,18 @@ class Place:
         cls, u: np.ndarray, time: np.ndarray, gravity: float = 0.0, gravity_std: float = 0.0
     ) -> Place:
         """By inputs (n, N_INPUT) that have the reference force, the body's rate and attitude."""
-        arms, up = arm_forces(u[:, COLUMNS["rate"]], time), np.zeros((len(u), 3))
-        q, across = u[:, COLUMNS["attitude"]], np.zeros((len(u), 3))
+        # What stays zero is never written to, so that it takes no memory.
+        forces, across = np.zeros((UNKNOWN, 3, len(u))), np.zeros((len(u), 3))
+        forces[:GRAVITY] = arm_forces(u[:, COLUMNS["rate"]], time).transpose(2, 1, 0)
+        q = u[:, COLUMNS["attitude"]]
         known = np.any(q != 0.0, axis=1)
         if gravity_std and known.any():
-            body = Rotation.from_quat(q[known], scalar_first=True)
+            body, up = Rotation.from_quat(q[known], scalar_first=True), np.zeros((len(u), 3))
             up[known] = body.apply([0.0, 0.0, 1.0], inverse=True)
             force = u[known, OWN["accel"]]
             across[known] = force - np.sum(force * up[known], axis=1)[:, None] * up[known]
-        forces = np.concatenate([arms, up[:, :, None], np.cross(up, across)[:, :, None]], axis=2)
-        return cls(
-            gravity, gravity_std, np.ascontiguousarray(forces.transpose(2, 1, 0)), across, time
-        )
+            forces[GRAVITY], forces[HEADING] = up.T, np.cross(up, across).T
+        return cls(gravity, gravity_std, forces, across, time)
 
     def by(self, u: np.ndarray) -> Place:
         """The same beside other inputs (n, N_INPUT)."""
@@ -118,5 +118,8 @@ class Place:
 
     @cached_property
     def slopes(self) -> np.ndarray:
-        """The rates of change (5, 3, n) of the forces."""
-        return np.gradient(self.forces, self.time, axis=2)
+        """The rates of change (5, 3, n) of the forces that are to be found, zero of others."""
+        out = np.zeros(self.forces.shape)
+        for k in self.unknown:
+            out[k] = np.gradient(self.forces[k], self.time, axis=1)
+        return out

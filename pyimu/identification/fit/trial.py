@@ -345,8 +345,10 @@ def environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
 
     The others stand at their start values.
     """
-    # Column by column, as what works on whole signals reads them.
-    u, known = np.repeat(START[:, None], len(recording.time), axis=1).T, {"time"}
+    # Column by column, as what works on whole signals reads them; what stays zero takes no memory.
+    u, known = np.zeros((len(START), len(recording.time))).T, {"time"}
+    for k in np.flatnonzero(START):
+        u[:, k] = START[k]
     u[:, OWN["accel"]] = 0.0
     u[:, COLUMNS["time"]] = (recording.time - recording.time[0])[:, None]
     force = recording.accel if recording.ref_force is None else recording.ref_force

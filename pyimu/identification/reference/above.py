@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pyimu.identification.fit.inputs import copied
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.place import at_the_point, with_force
 from pyimu.model.kinds import OWN
@@ -31,7 +31,7 @@ def with_sensor_above(trial: Trial) -> Trial:
     if smoothing is None:
         return trial
     reach, own = smoothing.reach(trial.h), OWN[trial.kind]
-    u, force, segments = np.array(trial.u), at_the_point(trial), []
+    u, force, segments = copied(trial.u), at_the_point(trial), []
     for a, b in trial.segments:
         if b - a > 3 * reach:
             body = Rotation.from_quat(u[a:b, COLUMNS["attitude"]], scalar_first=True)

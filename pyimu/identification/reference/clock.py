@@ -16,6 +16,7 @@ import numpy as np
 
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.columns import band_time, in_band
+from pyimu.identification.fit.inputs import copied
 from pyimu.identification.fit.interpolated import interpolated
 from pyimu.identification.fit.response import through_dynamics
 from pyimu.identification.fit.sample_noise import rest_noise
@@ -147,7 +148,7 @@ def shifted(trial: Trial, clock: Clock) -> Trial:
     late = clock.at(trial.time)
     if not np.any(late):
         return trial
-    u, segments = np.array(trial.u), []
+    u, segments = copied(trial.u), []
     columns = [OWN[trial.kind], COLUMNS[KINDS[trial.kind].own_rate]]
     if trial.place is not None:
         columns += [COLUMNS[name] for name in ("rate", "angular_acceleration", "attitude")]
@@ -273,9 +274,11 @@ def _by_window(time, x, slope, y, seen, gain, late: float, places: list[tuple[in
     is taken out as biases may have wandered, and the gain fitted anew to the rest.
     """
     share = _mean_share(y - (x - late * slope) @ gain, places)
+    signals = (x, slope, y, seen)
+    taken = np.stack([share * _means(v, places) for v in signals], axis=1)
     parts = [
-        [v[a:b] - n * v[a:b].mean(axis=0) for v in (x, slope, y, seen)]
-        for (a, b), n in zip(places, share, strict=True)
+        [v[a:b] - n for v, n in zip(signals, some, strict=True)]
+        for (a, b), some in zip(places, taken, strict=True)
     ]
     gain = _regained(parts, gain)
     middles, lates, stds = [], [], []
@@ -310,7 +313,15 @@ def _mean_share(left: np.ndarray, places: list[tuple[int, int]]) -> np.ndarray:
     linear models with nested-error structure", JASA 68).
     """
     count = np.array([b - a for a, b in places])[:, None]
-    means = np.array([left[a:b].mean(axis=0) for a, b in places])
-    white = np.mean([left[a:b].var(axis=0) for a, b in places], axis=0)
+    means = _means(left, places)
+    apart = [(left[a:b] - mean) ** 2 for (a, b), mean in zip(places, means, strict=True)]
+    white = np.mean([np.add.reduce(v) / len(v) for v in apart], axis=0)
     bias = np.maximum(np.median(means**2, axis=0) / CHI2_MEDIAN - white / np.median(count), 0.0)
     return 1.0 - np.sqrt(white / np.maximum(white + count * bias, 1e-300))
+
+
+def _means(values: np.ndarray, places: list[tuple[int, int]]) -> np.ndarray:
+    """Means (windows, k) of values (m, k) in places that follow one another."""
+    edges = np.ravel(places)
+    inside = edges[: len(edges) - int(edges[-1] == len(values))]
+    return np.add.reduceat(values, inside)[::2] / np.diff(places)

@@ -8,7 +8,7 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.identification.fit.columns import in_band
-from pyimu.identification.fit.inputs import own_rate
+from pyimu.identification.fit.inputs import copied, own_rate
 from pyimu.identification.fit.place import GRAVITY, HEADING
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.moving import (
@@ -129,7 +129,7 @@ def placed(trial: Trial) -> Trial:
     rows, place = _Rows.of(trial), trial.place
     if rows.few:
         return trial
-    u, own = np.array(trial.u), OWN[trial.kind]
+    u, own = copied(trial.u), OWN[trial.kind]
     if is_differentiated(trial):
         angle = _heading(rows)
         u[:, own] += place.headed(angle)
@@ -146,7 +146,7 @@ def headed(trial: Trial) -> Trial:
         return trial
     rows, place = _Rows.of(trial), trial.place
     angle = 0.0 if rows.few else _heading(rows)
-    u = np.array(trial.u)
+    u = copied(trial.u)
     u[:, OWN[trial.kind]] += place.headed(angle)
     findings = trial.findings
     if abs(angle) > SAID:
@@ -162,7 +162,7 @@ def quietened(trial: Trial) -> Trial:
     centripetal force, would bring it down into the band.
     """
     place = replace(trial.place, cutoff=BEYOND * trial.band_hz)
-    u = np.array(trial.u)
+    u = copied(trial.u)
     for at in (OWN[trial.kind], COLUMNS["rate"]):
         u[:, at] = place.below(u[:, at], trial.segments)
     return with_force(replace(trial, place=place), u)

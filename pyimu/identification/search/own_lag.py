@@ -15,7 +15,7 @@ import numpy as np
 from pyimu.identification.fit.clock import LONGEST_OWN
 from pyimu.identification.fit.damping import damping
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.inputs import LogState, own_rate
+from pyimu.identification.fit.inputs import LogState, copied, own_rate
 from pyimu.identification.fit.interpolated import TAPS, delayed
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
@@ -150,7 +150,7 @@ def apart(trial: Trial) -> Trial:
         return trial
     less = int(np.ceil(LONGEST_OWN / trial.h)) + TAPS
     kept = [(a + less, b - less) for a, b in trial.segments if b - a > 3 * less]
-    u = np.array(trial.u)
+    u = copied(trial.u)
     for at in (OWN[trial.kind], own_rate(trial.kind)) if clock.own else ():
         u[:, at] = delayed(trial.u[:, at], clock.own / trial.h)
     whole = replace(clock, late=clock.late + clock.own, own=0.0, taken_out=True, apart=LONGEST_OWN)

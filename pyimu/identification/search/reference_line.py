@@ -14,7 +14,7 @@ from pyimu.identification.fit.columns import band_time, in_band, in_log
 from pyimu.identification.fit.doubted import CERTAIN
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.incoherent import CHANCE
-from pyimu.identification.fit.inputs import LogState, reference_input
+from pyimu.identification.fit.inputs import LogState, copied, reference_input
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import KINDS, OWN
@@ -57,7 +57,7 @@ def without_line(
 def _less(trial: Trial, fit: Fit, effect: str, log: str) -> Trial:
     line, own = _line(fit, effect, trial, fit.states[log]), OWN[trial.kind]
     line = np.where(np.isin(np.arange(3), trial.axes), line, 0.0)
-    u, rate = np.array(trial.u), COLUMNS[KINDS[trial.kind].own_rate]
+    u, rate = copied(trial.u), COLUMNS[KINDS[trial.kind].own_rate]
     u[:, own] += line
     for a, b in trial.segments:
         if b - a > 1:

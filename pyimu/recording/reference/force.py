@@ -132,9 +132,14 @@ def arm_forces(rate: np.ndarray, time: np.ndarray) -> np.ndarray:
     """What a metre along each axis of a body adds to the specific force (n, 3, 3), [:, :, k] along
     axis k: alpha x e_k + omega x (omega x e_k) at rates (n, 3) rad/s.
     """
-    acceleration = _slope(rate, time)
-    made = [np.cross(acceleration, e) + np.cross(rate, np.cross(rate, e)) for e in np.eye(3)]
-    return np.stack(made, axis=2)
+    w, acceleration = np.ascontiguousarray(rate.T), _slope(rate, time)
+    made = w[:, None] * w  # omega x (omega x e_k) = omega omega_k - |omega|^2 e_k
+    squared = np.trace(made)
+    for k, (one, other) in enumerate(((1, 2), (2, 0), (0, 1))):
+        made[k, k] -= squared
+        made[k, one] += acceleration[:, other]
+        made[k, other] -= acceleration[:, one]
+    return made.transpose(2, 1, 0)
 
 
 def _acceleration(
