@@ -177,7 +177,8 @@ def _unexplained(kind: str, scores: Scores) -> Unexplained | None:
     """The term on which a residual depends most clearly, if on any."""
     if scores.p_value >= UNEXPLAINED:
         return None
-    s = min(scores.terms, key=lambda s: s.p_value)
+    # Of terms that say the same but for rounding the plainest.
+    s = min(scores.terms, key=lambda s: (float(f"{s.p_value:.6g}"), s.term.size))
     return Unexplained(kind, "xyz"[s.axis], s.term.inputs, scores.p_value)
 
 
