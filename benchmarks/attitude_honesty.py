@@ -28,7 +28,8 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from drives.cases import CASES, N_ACCEL, Case, K, Log, N
+from drives.cases import CASES, N_ACCEL, Case, K, N
+from drives.log import Log
 from drives.mekf import mekf
 from generators import rotation
 from generators.motion import GRAVITY
@@ -53,6 +54,9 @@ SOURCES = [Path(pyimu.__file__).parent / "attitude", Path(__file__).parent / "dr
 BY_NAME = {c.name: c for c in CASES}
 EXACT = {"rate_noise": 0.0, "axes_std": 0.0}
 """Settings for sensors that have no errors but those of their part."""
+
+SEES = {"vqf": "mag", "mekf": "heading"}
+"""The column by which a peer knows the heading."""
 
 DEFINED = {"undeclared clip", "an axis sticks"}
 """Cases with errors that nobody declared."""
@@ -106,16 +110,19 @@ def one(case_name: str, seed: int, index: int, how: str) -> dict:
     log = case.make(np.random.default_rng([seed, index, list(BY_NAME).index(case.name)]))
     at = log.time >= log.time[0] + case.since
     smooth = how == "smoothed"
-    ours, gravity = estimated(log, smooth), log.told.get("settings", {}).get("gravity", GRAVITY)
+    ours, gravity = (
+        estimated(log, smooth, case.default),
+        log.told.get("settings", {}).get("gravity", GRAVITY),
+    )
     others = {"mekf": mekf(log, N, K, N_ACCEL, case.pushed, gravity)}
     if VQF is not None:
         gyro = np.where(np.isfinite(log.gyro), log.gyro, 0.0)
         period = float(np.median(np.diff(log.time)))
-        others["vqf"] = peer(np.ascontiguousarray(gyro), log.accel, period, smooth)["quat6D"]
+        others["vqf"] = peer(np.ascontiguousarray(gyro), log, period, smooth)
     tilt, heading = errors(ours.q, log, at, case.headed)
     result = {"pyimu": {"tilt": _deg(tilt), "heading": _deg(heading)}}
     for who, q in others.items():
-        off, headed = errors(q, log, at, case.headed and who == "mekf")
+        off, headed = errors(q, log, at, case.headed and SEES[who] in log.heading)
         result[who] = {"tilt": _deg(off), "heading": _deg(headed)}
     off, headed = errors(ours.q, log, at, True)
     if not case.headed:
@@ -130,19 +137,29 @@ def one(case_name: str, seed: int, index: int, how: str) -> dict:
     return result
 
 
-def peer(gyro: np.ndarray, accel: np.ndarray, period: float, smooth: bool) -> dict:
-    """vqf over a log, offline where it is to be smoothed."""
+def peer(gyro: np.ndarray, log: Log, period: float, smooth: bool) -> np.ndarray:
+    """Attitudes (n, 4) by vqf over a log, with its magnetometer if there is one, offline where they
+    are to be smoothed.
+    """
+    accel, mag = (
+        None if v is None else np.ascontiguousarray(v) for v in (log.accel, log.heading.get("mag"))
+    )
     if smooth:
-        return offlineVQF(gyro, np.ascontiguousarray(accel), None, period)
-    return VQF(period).updateBatch(gyro, accel)
+        found = offlineVQF(gyro, accel, mag, period)
+    else:
+        found = VQF(period).updateBatch(gyro, accel, mag)
+    return found["quat6D" if mag is None else "quat9D"]
 
 
-def estimated(log: Log, smooth: bool):
+def estimated(log: Log, smooth: bool, default: bool = False):
     """The package's filter over a log, with the part's noise, and where asked its smoother.
 
-    The simulated gyro has no error that grows with the rate, and the filter is told so.
+    The simulated gyro has no error that grows with the rate, and the filter is told so, but for a
+    run by ``default``.
     """
     recording = Recording.from_arrays(time=log.time, gyro=log.gyro, accel=log.accel, **log.heading)
+    if default:
+        return run(recording, smooth=smooth, **log.told)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "part.toml"
         path.write_text(

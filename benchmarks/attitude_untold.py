@@ -16,7 +16,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from attitude_honesty import errors, estimated
 from drives.cases import (
-    Log,
     hand,
     matched,
     off_scale,
@@ -25,6 +24,7 @@ from drives.cases import (
     vehicle,
     with_headings,
 )
+from drives.log import Log
 from generators import rotation
 from generators.motion import eased
 

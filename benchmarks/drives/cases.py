@@ -8,9 +8,11 @@ sensors have white noise, a bias and a random walk that the filter is told of.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
+from drives import bodies
+from drives.log import Log
 from generators import rotation
 from generators.instrument import Triad
 from generators.motion import (
@@ -38,31 +40,13 @@ HEADING_STD = 0.035
 
 
 @dataclass(frozen=True)
-class Log:
-    """What is recorded and what is true, a row a sample.
-
-    ``time`` (n,) s as recorded; ``gyro``, ``accel`` (n, 3); the true attitude ``q`` (n, 4) at the
-    sample, the true gyro ``bias`` (n, 3). ``heading``, ``heading_std``, ``heading_age`` (n,), NaN
-    where there is none. ``told`` are arguments of the filter.
-    """
-
-    time: np.ndarray
-    gyro: np.ndarray
-    accel: np.ndarray
-    q: np.ndarray
-    bias: np.ndarray
-    heading: dict[str, np.ndarray] = field(default_factory=dict)
-    told: dict = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
 class Case:
     """How a log is made, and what is looked at.
 
     ``make(rng)`` gives a log; ``since`` s of it are not scored. ``pushed`` (m/s^2, s) is by how
     much the body accelerates and for how long, for the plain filter beside, which is told so.
     ``headed`` says that headings come, so that the error of heading is scored as it is, else
-    against the heading at ``since``.
+    against the heading at ``since``. By ``default`` the filter is told nothing of the sensors.
     """
 
     name: str
@@ -70,6 +54,7 @@ class Case:
     pushed: tuple[float, float] = (0.05, 0.1)
     since: float = 10.0
     headed: bool = False
+    default: bool = False
 
 
 # Samples
@@ -330,6 +315,36 @@ def untold_latitude(rng) -> Log:
     return with_headings(rng, matched(rng, n=1e-5, latitude=0.8), every=5.0)
 
 
+def _bend(*how) -> Callable[..., Log]:
+    return lambda rng: bodies.aircraft(rng, *how)
+
+
+ORDINARY = (
+    Case("aircraft, turns at 50 m/s", _bend(50.0, 0.44, (40.0, 80.0)), (3.0, 20.0)),
+    Case("aircraft, turns at 18 m/s", _bend(18.0, 0.52, (20.0, 60.0)), (3.0, 20.0)),
+    Case("the same, in the air at the start", _bend(18.0, 0.52, (20.0, 60.0), ()), (3.0, 20.0)),
+    Case(
+        "car, bends of 2 m/s^2", lambda rng: bodies.long_bends(rng, 2.0, (15.0, 40.0)), (2.0, 20.0)
+    ),
+    Case(
+        "car, bends of 0.7 m/s^2",
+        lambda rng: bodies.long_bends(rng, 0.7, (20.0, 40.0)),
+        (0.7, 20.0),
+    ),
+    Case("turntable, after 20 s at rest", lambda rng: bodies.turntable(rng, 20.0)),
+    Case("turntable, from the start", lambda rng: bodies.turntable(rng, -5.0)),
+    Case("ship at anchor", bodies.at_anchor),
+    Case("camera that pans", bodies.panned),
+    Case("arm of a robot", bodies.arm, (3.0, 0.2)),
+    Case("swinging link", bodies.swung, (3.0, 0.2)),
+    Case("drone, motors of 0 uT", lambda rng: bodies.drone(rng, 0.0), (3.0, 1.0), headed=True),
+    Case("drone, motors of 3 uT", lambda rng: bodies.drone(rng, 3e-6), (3.0, 1.0), headed=True),
+    Case("drone, motors of 8 uT", lambda rng: bodies.drone(rng, 8e-6), (3.0, 1.0), headed=True),
+    Case("phone, shaken at 10 m/s^2", lambda rng: bodies.shaken(rng, 10.0), (10.0, 0.1)),
+    Case("phone, shaken at 25 m/s^2", lambda rng: bodies.shaken(rng, 25.0), (25.0, 0.1)),
+)
+"""Of ``drives.bodies``, whose sensors the filter is told nothing of."""
+
 CASES = (
     Case("rest", still),
     Case("turning in place", matched),
@@ -377,4 +392,5 @@ CASES = (
         lambda rng: record(rng, with_stops(rng, 300.0), 300.0),
         (1.0, 4.0),
     ),
+    *(replace(c, default=True) for c in ORDINARY),
 )

@@ -19,9 +19,13 @@ from pyimu.model.signals import SIGNALS
 from pyimu.recording.quality.clipping import clipping_level
 from pyimu.recording.recording import Recording
 
-NOMINAL_K = 3e-4
-"""rad/s/sqrt(s); rate random walk of a gyro of whose wander nothing is known. In motion that is
-what its model lacks, ten times and more of what it does at rest. Chosen on recordings moved by hand
+NOMINAL_K = 3e-5
+"""rad/s/sqrt(s); rate random walk of a gyro of whose wander nothing is known. A consumer's flickers
+at 5 to 10 deg/h, which is as much in 10 s to a minute."""
+
+NOMINAL_MOTION_WALK = 3e-4
+"""rad/s/sqrt(s); the setting ``motion_walk`` for such a gyro: in motion that is what its model
+lacks, ten times and more of what it does at rest. Chosen on recordings moved by hand
 (``benchmarks/attitude_real.py``); from 2e-4 to 1e-3 it makes little difference."""
 
 NOMINAL_RATE_NOISE = 1.6e-3
@@ -71,15 +75,27 @@ def wandering(part: Part, warming: float = 0.0) -> Part:
     To its own comes what the bias of a specimen does while it warms, which the part's tolerances
     allow; ``warming`` K/sqrt(s) is the walk of the temperature.
     """
-    laws = [e.law for e in part.gyro.effects if e.law is not None]
     walk, strength = WALK
     own = part.gyro.values.get(walk, {}).get(strength, np.zeros(3))
-    if not any(law.walk or law.markov for law in laws):
+    if not wanders(part):
         own = np.full(3, NOMINAL_K)
     whole = np.hypot(own, bias_walk(part, warming))
     return (
         part.with_sensor(part.gyro.with_values(walk, **{strength: whole})) if whole.any() else part
     )
+
+
+def wanders(part: Part) -> bool:
+    """Whether the part says how its gyro's bias wanders."""
+    laws = [e.law for e in part.gyro.effects if e.law is not None]
+    return any(law.walk or law.markov for law in laws)
+
+
+def motion_walk(part: Part | None) -> float:
+    """rad/s/sqrt(s); the setting ``motion_walk`` for a part that does not say how its gyro's bias
+    wanders, or for an unknown one.
+    """
+    return 0.0 if part is not None and wanders(part) else NOMINAL_MOTION_WALK
 
 
 def warming(recording: Recording) -> float:

@@ -61,6 +61,9 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real biasNoise(min=0) = 0
     "Root density of the walk of the bias over the rate [1/sqrt(s)]"
     annotation(Dialog(group="Filter"));
+  parameter Real motionWalk(min=0) = 0
+    "Random walk of the bias beside the part's, while the body moves [rad/s/sqrt(s)]"
+    annotation(Dialog(group="Filter"));
   parameter Real stationaryStd(unit="rad/s", min=0) = 1e-05
     "Standard deviation of the rate of a body that is called stationary"
     annotation(Dialog(group="Filter"));
@@ -213,18 +216,18 @@ protected
   Modelica.Blocks.Interfaces.RealInput speedVarianceUsed;
   Modelica.Blocks.Interfaces.BooleanInput speedValidUsed;
   Modelica.Blocks.Interfaces.RealInput magUsed[3];
-  final parameter Real p[62] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
+  final parameter Real p[63] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
     bias0[3], std0[1], std0[2], std0[3], std0[4], std0[5], std0[6], gravity, accelStd,
     accelBiasStd, accelCorrelationTime, gravityWalk, gravityTolerance, motionTolerance,
     steadyTolerance, motionTime, motionShare, rateNoise, scaleStd, axesStd, biasNoise,
-    stationaryStd, restTime, restRateTolerance, restForceTolerance, slipStd, speedTolerance,
-    lostRateStd, stuckTime, axisStuckTime[1], axisStuckTime[2], axisStuckTime[3],
-    axisStuckTime[4], axisStuckTime[5], axisStuckTime[6], headingMemory, declination,
-    fieldStrength, fieldDip, fieldStrengthStd, fieldStd, fieldTime, fieldTurningStd, fieldNoise,
-    fieldTolerance, gyroThermalBias_kT[1], gyroThermalBias_kT[2], gyroThermalBias_kT[3],
-    gyroThermalBias_T0, gyroAngleRandomWalk_N[1], gyroAngleRandomWalk_N[2],
-    gyroAngleRandomWalk_N[3], gyroRateRandomWalk_K[1], gyroRateRandomWalk_K[2],
-    gyroRateRandomWalk_K[3]} "In the order of the co-simulation unit";
+    motionWalk, stationaryStd, restTime, restRateTolerance, restForceTolerance, slipStd,
+    speedTolerance, lostRateStd, stuckTime, axisStuckTime[1], axisStuckTime[2],
+    axisStuckTime[3], axisStuckTime[4], axisStuckTime[5], axisStuckTime[6], headingMemory,
+    declination, fieldStrength, fieldDip, fieldStrengthStd, fieldStd, fieldTime,
+    fieldTurningStd, fieldNoise, fieldTolerance, gyroThermalBias_kT[1], gyroThermalBias_kT[2],
+    gyroThermalBias_kT[3], gyroThermalBias_T0, gyroAngleRandomWalk_N[1],
+    gyroAngleRandomWalk_N[2], gyroAngleRandomWalk_N[3], gyroRateRandomWalk_K[1],
+    gyroRateRandomWalk_K[2], gyroRateRandomWalk_K[3]} "In the order of the co-simulation unit";
   AttitudeUkfMemory memory = AttitudeUkfMemory(samplePeriod, p);
   discrete Real k(start=0, fixed=true) "Number of the sample; 0 is the start";
   Real u[18] "Inputs, in the order of the co-simulation unit";
@@ -253,6 +256,7 @@ equation
   assert(scaleStd >= 0, "AttitudeUkf: scaleStd must not be below 0");
   assert(axesStd >= 0, "AttitudeUkf: axesStd must not be below 0");
   assert(biasNoise >= 0, "AttitudeUkf: biasNoise must not be below 0");
+  assert(motionWalk >= 0, "AttitudeUkf: motionWalk must not be below 0");
   assert(stationaryStd >= 0, "AttitudeUkf: stationaryStd must not be below 0");
   assert(restTime >= 0, "AttitudeUkf: restTime must not be below 0");
   assert(restRateTolerance >= 0, "AttitudeUkf: restRateTolerance must not be below 0");
@@ -377,6 +381,9 @@ bias of the accelerometer, axes of either. It turns with the body, and nothing i
 it.</td></tr>
 <tr><td>biasNoise</td><td>Root density of the walk of the bias over the rate: a gyro that feels
 forces has another bias when it has turned over.</td></tr>
+<tr><td>motionWalk</td><td>Random walk of the bias beside the part's, while the body moves: what the
+model of a gyro lacks shows in motion, and a turn that is slow and even is not taken for
+it.</td></tr>
 <tr><td>restTime</td><td>A body of which no sample differs from the others for so long is at rest,
 or for 2.5 s where its bias about the vertical is not known to 2e-3 rad/s; 0: never.</td></tr>
 <tr><td>speedTolerance</td><td>Standard deviation of the share by which the accelerations of a body

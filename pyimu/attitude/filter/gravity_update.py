@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import casadi as ca
 
 from pyimu.attitude.filter.layout import GRAVITY, GravityMeasurement
+from pyimu.attitude.filter.long_push import LongPush
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.quasi_static import (
     MEAN_TIME,
@@ -82,6 +83,13 @@ KNOWN_TILT = 0.05
 """rad; standard deviation of the tilt up to which the velocity measures gravity: what is not linear
 in the tilt is then below 0.025 m/s^2."""
 
+BESIDE = 0.02
+"""s^2/m; by so much of a push that lasts the variance may be larger: half of it times gravity,
+which is not linear, is then a tenth of the push."""
+
+MOST_TILT = 0.3
+"""rad; beyond it what is linear in the tilt is off by a twentieth."""
+
 
 @dataclass(frozen=True)
 class Body:
@@ -144,21 +152,24 @@ def inclination(
     plausible = where(
         valid, 1 - (1 - steady) * (1 - _is_mean_gravity(mean, size, tolerance, settings))
     )
-    known = is_tilt_known(x)
-    measured = _measured(sample.force, mean, steady, noise, white, settings, h)
+    long = memory.motion.long
+    known = is_tilt_known(x, long)
+    measured = _measured(sample.force, mean, steady, noise, white, long, settings, h)
     rests = body.rests * (1 - is_pushed(body.at_rest_force, x, settings, h))
     resting = rests * body.sure
     variance = _lessened(motion.variance, resting, _std_at_rest(at) ** 2)
     # Pushes that lasted are in a slow velocity, and not in that of a body that rests.
     slow = _lessened(motion.slow, resting, 1)
     pushed = memory.motion.drift * reciprocal(at["motion_time"] + h) ** 2
+    pushed = ca.fmax(pushed, long.variance)
     contradicts = plausible * _contradicts(measured[0], mean, pushed, x, white, settings)
     motion = Bounded(variance, slow)
     given = _measurement(measured, size, motion, plausible, contradicts, settings, h)
     # A turn on wheels makes the force larger, but not its part along the vertical.
     up = vertical(x)
     seen = ca.if_else(known, ca.dot(up, mean.force), ca.norm_2(mean.force))
-    no_doubt = 1 - (1 - plausible) * (1 - body.driven)
+    upright = known * (ca.fabs(seen - size) <= tolerance)
+    no_doubt = 1 - (1 - plausible) * (1 - body.driven) * (1 - upright)
     force = body.at_rest_force
     learnt = memory.size.followed(no_doubt, rests, force, seen, at["gravity"], valid, h)
     usable, velocity = plausible * (1 - known), where(valid, known)
@@ -215,9 +226,13 @@ def _is_off(force, x: Estimate, spread, settings: Settings, gate: float):
     return off > gate * (own + spread)
 
 
-def is_tilt_known(x: Estimate):
-    """Whether the tilt is known well enough for the velocity to be linear in its error, 0 or 1."""
-    return tilt_variance(x.covariance, vertical(x)) <= KNOWN_TILT**2
+def is_tilt_known(x: Estimate, long: LongPush):
+    """Whether the tilt is known well enough for the velocity to be linear in its error, 0 or 1.
+
+    Beside pushes that last what is not linear may be a share of them.
+    """
+    beside = ca.fmin(BESIDE * ca.sqrt(long.variance), MOST_TILT**2)
+    return tilt_variance(x.covariance, vertical(x)) <= KNOWN_TILT**2 + beside
 
 
 def _std_at_rest(at: Mapping[str, ca.SX]):
@@ -258,6 +273,7 @@ def push(memory: Memory, sample: Sample, settings: Settings, h, resting) -> Push
     lost_for = ca.fmin(ca.fmax(MEAN_TIME - memory.mean.span, 0), at["motion_time"])
     lost = memory.mean.scatter * (1 + 2 * lost_for * reciprocal(h))
     drift = (1 - resting) * DRIFT_GAIN * memory.motion.drift * h / (at["motion_time"] + h)
+    drift += (1 - resting) * h * memory.motion.long.density(at["motion_time"])
     unknown, axes_std = h**2 * declared + drift, 0.0
     if sample.driven is not False:
         off = 2 * PUSH_TIME * h * (at["speed_tolerance"] * _acceleration(memory)) ** 2
@@ -301,9 +317,11 @@ def _is_mean_gravity(mean: MeanForce, size, tolerance, settings: Settings):
     return (at["accel_std"] > 0) * (2 * mean.span > MEAN_TIME) * is_near(mean.force, size, wider)
 
 
-def _measured(sampled, mean: MeanForce, steady, noise, white, settings: Settings, h):
+def _measured(
+    sampled, mean: MeanForce, steady, noise, white, long: LongPush, settings: Settings, h
+):
     """The sampled force (3,) where the body is ``steady``, else the mean force, with its variance
-    and that of one sample.
+    and that of one sample; each with the pushes that last.
 
     ``noise`` (3,) is the variance of the sampled force, ``white`` (3,) its part that is white
     noise. In a single sample the acceleration has its own variance, however long it lasts; that one
@@ -318,7 +336,8 @@ def _measured(sampled, mean: MeanForce, steady, noise, white, settings: Settings
     variance = in_motion + steady * (noise - in_motion)
     lasting = MEAN_TIME + steady * (at["accel_correlation_time"] + at["motion_time"] - MEAN_TIME)
     of_sample = variance - (1 - 1 / (1 + 2 * lasting * reciprocal(h))) * (variance - white)
-    return force, variance, of_sample
+    pushed = long.density(at["motion_time"]) * reciprocal(h)
+    return force, variance + pushed, of_sample + long.variance
 
 
 def corrected(working, given: GravityMeasurement, x: Estimate, nis, weight):

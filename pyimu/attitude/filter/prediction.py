@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
-from pyimu.attitude.filter import late_heading
+from pyimu.attitude.filter import late_heading, long_push
 from pyimu.attitude.filter.field import is_magnetometer
 from pyimu.attitude.filter.gravity_update import (
     Body,
@@ -15,10 +15,12 @@ from pyimu.attitude.filter.gravity_update import (
     inclination,
     is_pushed,
     is_tilt_known,
+    tilt_variance,
     vertical,
     white_variance,
 )
 from pyimu.attitude.filter.layout import EVERY, Flags, Layout
+from pyimu.attitude.filter.long_push import LongPush
 from pyimu.attitude.filter.memory import ESTIMATE, FADING, HOLD, REPORTED, Memory
 from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
 from pyimu.attitude.filter.sample import Sample, unknown_turn
@@ -26,6 +28,7 @@ from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.slow_motion import Bounds
 from pyimu.attitude.filter.stillness import (
     CALM,
+    FAST,
     SLOW,
     UNKNOWN,
     Stillness,
@@ -193,15 +196,22 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     turned = (before.rests < 0) * (1 - at.stationary)
     ends = (rests > resting) + turned > 0
     x = replace(x, bias=ca.if_else(ends, safe[:3], x.bias))
-    up, rate = vertical(x), before.slow - at.memory.estimate.bias - at.earth
-    unseen = turned * (rate - doubt * ca.dot(up, rate) * up) ** 2
+    up = vertical(x)
+
+    def not_turned_on(bias):
+        rate = before.slow - bias - at.earth
+        return (rate - doubt * ca.dot(up, rate) * up) ** 2
+
+    unseen = turned * not_turned_on(at.memory.estimate.bias)
+    by_noise = _density(settings) / (2 * SLOW)
+    begun = (ends - turned) * ca.fmax(not_turned_on(x.bias) - by_noise, 0)
     taken = ca.fmin(variance * SLOW / ca.fmax(before.density, _density(settings)), 1)
     forgotten = ends * ca.fmax(safe[3:] - variance, 0) + taken**2 * unseen
     moving = (1 - at.stationary) * kept
     # What a push has left goes on, though the filter, which follows it, measures no velocity.
     may_drive = drove * (ca.fmax(velocity, at.memory.motion.drift) > DRIVES**2)
     calm = calmer(at.memory.calm, before, alike, may_drive, at.h)
-    unseen, both = SLOW**2 * unseen, (1 - unsure, doubt)
+    unseen, both = SLOW**2 * (unseen + begun), (1 - unsure, doubt)
     return Rest(still, resting, *both, moving, x, forgotten, unseen, safe, later, calm)
 
 
@@ -260,6 +270,7 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
         ca.diag(noise[3:, 3:])
         + LEAST_K**2 * h
         + settings.scalar["bias_noise"] ** 2 * turning
+        + settings.scalar["motion_walk"] ** 2 * h * (rest.still.span <= FAST)
         + rest.forgotten,
     )
 
@@ -274,7 +285,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     axes to new, ``noise`` that of ``added_noise``.
     """
     scalar, kept = at.settings.scalar, at.memory
-    known = is_tilt_known(x)
+    known = is_tilt_known(x, kept.motion.long)
     usable = (ca.fabs(at.u[SPEED]) <= ABSURD) * (ca.fabs(at.u[SPEED_VARIANCE]) <= ABSURD)
     usable *= at.u[SPEED_VARIANCE] >= 0
     speed = (at.u[SPEED_VALID] > 0.5) * usable * known
@@ -284,7 +295,10 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     used = where(sample.force_valid, goes_on)
     white = ca.sum1(white_variance(at.settings, at.h)) * (at.h / 3)
     bounds = Bounds(scalar["motion_share"], white, scalar["motion_time"])
-    motion, bounded = followed(kept.motion, x, used, goes_on, scalar["accel_std"] > 0, bounds, at.h)
+    may = (1 - rest.surely) * (1 - at.stationary) * (1 - driven)
+    long = _pushed_for_long(at, sample, x, may)
+    moves = scalar["accel_std"] > 0
+    motion, bounded = followed(kept.motion, x, used, goes_on, moves, bounds, long, at.h)
     rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
     body = Body(rests, rest.still.slow_force, rest.sure, driven)
     force = inclination(kept, sample, x, bounded, turned, at.settings, at.h, body)
@@ -326,6 +340,19 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         force.measurement.pack(),
         flags.pack(),
     ]
+
+
+def _pushed_for_long(at: Instant, sample: Sample, x: Estimate, goes_on) -> LongPush:
+    """The pushes that last, by the force of a sample; ``goes_on`` 0 or 1 says whether there may be
+    any.
+    """
+    scalar, motion = at.settings.scalar, at.memory.motion
+    moves = goes_on * (scalar["accel_std"] > 0)
+    level = quaternion.to_matrix(x.q)[:2, :] @ sample.force
+    own = scalar["gravity"] ** 2 * tilt_variance(x.covariance, vertical(x))
+    used = where(sample.force_valid, moves)
+    time = scalar["motion_time"]
+    return long_push.followed(motion.long, level, own, motion.across, time, moves, used, at.h)
 
 
 def _flags(

@@ -291,6 +291,13 @@ SETTINGS = (
         0.0,
     ),
     _setting(
+        "motion_walk",
+        "rad/s/sqrt(s)",
+        "random walk of the bias beside the part's, while the body moves: what the model of a gyro "
+        "lacks shows in motion, and a turn that is slow and even is not taken for it",
+        0.0,
+    ),
+    _setting(
         "stationary_std",
         "rad/s",
         "standard deviation of the rate of a body that is called stationary",

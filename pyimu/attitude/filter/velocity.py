@@ -20,8 +20,10 @@ from dataclasses import dataclass
 import casadi as ca
 
 from pyimu.attitude.filter import slow_motion
+from pyimu.attitude.filter.long_push import SIZES as LONG_SIZES
+from pyimu.attitude.filter.long_push import LongPush
 from pyimu.attitude.filter.slow_motion import SIZES as SLOW_SIZES
-from pyimu.attitude.filter.slow_motion import Bounds, SlowMotion
+from pyimu.attitude.filter.slow_motion import TINY, Bounds, SlowMotion
 from pyimu.attitude.filter.unscented import Estimate
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal, symmetric
@@ -34,6 +36,10 @@ FIRST_STD = 0.08
 
 FIRST_TIME = 2.0
 """Correlation times of the velocity over which a slower one must show to count as much as that."""
+
+UNLEVELLED, MOST_AT_FIRST = 0.3, 0.3
+"""s, m/s; a body whose tilt is not known is in motion, as one that is held or flies, with a
+velocity of so many seconds of the force that tilts it, and at most of this."""
 
 WINDOW, RISE = 8.0, 7.0
 """Correlation times of the velocity over which its variance is estimated, where it falls and where
@@ -102,7 +108,8 @@ class Motion:
     ``across`` and ``along`` the vertical the variance of its velocity in (m/s)^2. ``slow`` (2,) m/s
     is the estimated velocity east and north less what is fast in it, ``drift`` (m/s)^2 its variance
     beyond ``DRIFTS`` times that of a bounded velocity. ``slowly`` is what is slow in it, ``known``
-    over how many correlation times the run has shown it, ``WINDOW`` at most.
+    over how many correlation times the run has shown it, ``WINDOW`` at most; ``long`` are the
+    pushes that last.
     """
 
     across: ca.SX
@@ -111,25 +118,27 @@ class Motion:
     drift: ca.SX
     known: ca.SX
     slowly: SlowMotion
+    long: LongPush
 
     @classmethod
     def start(cls, at: Mapping[str, ca.SX]) -> Motion:
         """That before the first sample, by the settings ``at``."""
         first = first_std(at) ** 2
         slowly = SlowMotion.start(first, at["motion_time"])
-        return cls(first, first, ca.SX.zeros(2), ca.SX(0), ca.SX(0), slowly)
+        return cls(first, first, ca.SX.zeros(2), ca.SX(0), ca.SX(0), slowly, LongPush.start())
 
     def pack(self) -> tuple:
         """Its numbers, in the order of ``SIZES``."""
-        return (*list(vars(self).values())[:5], *self.slowly.pack())
+        return (*list(vars(self).values())[:5], *self.slowly.pack(), *self.long.pack())
 
     @classmethod
     def unpack(cls, parts) -> Motion:
         """The inverse of ``pack``."""
-        return cls(*parts[:5], SlowMotion(*parts[5:]))
+        after = 5 + len(SLOW_SIZES)
+        return cls(*parts[:5], SlowMotion(*parts[5:after]), LongPush(*parts[after:]))
 
 
-SIZES = (1, 1, 2, 1, 1, *SLOW_SIZES)
+SIZES = (1, 1, 2, 1, 1, *SLOW_SIZES, *LONG_SIZES)
 """Of what ``Motion.pack`` gives."""
 
 
@@ -209,9 +218,20 @@ def rescaled(before: Estimate, q, own, leak, rate, scale_std, push: Push):
 def first_std(at: Mapping[str, ca.SX]):
     """Standard deviation [m/s] of the velocity before the first sample, by the settings ``at``.
 
-    Zero where they say that it never accelerates.
+    Zero where they say that it never accelerates, larger where no rest has shown the tilt.
     """
-    return ca.fmax(at["accel_std"] * at["motion_time"], FIRST_STD) * (at["accel_std"] > 0)
+    unlevelled = UNLEVELLED * at["gravity"] * _first_tilt_std(at)
+    least = ca.fmax(FIRST_STD, ca.fmin(unlevelled, MOST_AT_FIRST))
+    return ca.fmax(at["accel_std"] * at["motion_time"], least) * (at["accel_std"] > 0)
+
+
+def _first_tilt_std(at: Mapping[str, ca.SX]):
+    """Standard deviation [rad] of the tilt before the first sample, the mean of its two axes."""
+    w, x, y, z = (at[f"q0[{i}]"] for i in (1, 2, 3, 4))
+    up = ca.vertcat(2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z)
+    along = up**2 * reciprocal(ca.sumsqr(up) + TINY)
+    std = ca.vertcat(*[at[f"std0[{i}]"] for i in (1, 2, 3)])
+    return ca.sqrt(ca.dot(1 - along, std**2) / 2)
 
 
 def at_rest(x: Estimate, motion) -> Estimate:
@@ -235,7 +255,7 @@ def covariance_of_motion(across, along, up):
 
 
 def followed(
-    motion: Motion, x: Estimate, used, goes_on, moves, bounds: Bounds, h
+    motion: Motion, x: Estimate, used, goes_on, moves, bounds: Bounds, long: LongPush, h
 ) -> tuple[Motion, Bounded]:
     """The motion after one more sample, whose velocity ``x`` has before its measurement.
 
@@ -277,5 +297,5 @@ def followed(
     slowly, slow_share = slow_motion.followed(
         motion.slowly, level, seen_across, drift, own_across, bounds, used, h
     )
-    after = Motion(across, along, slow, drift, known, slowly)
+    after = Motion(across, along, slow, drift, known, slowly, long)
     return after, Bounded(ca.vertcat(seen_across, seen_along), slow_share)

@@ -1,0 +1,74 @@
+"""Pushes that last longer than a velocity that is bounded allows, as the run itself shows them.
+
+An aircraft that turns, or a car in a long bend, is pushed one way for tens of seconds. The force of
+it looks like gravity, and a tilt that follows it is off by the angle between the two. While the
+gyro still knows the tilt better, the mean force across its vertical shows the push. With a variance
+s^2 and a correlation time T it has the density 2 T s^2 at low frequency, and the velocity walks by
+that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+
+from pyimu.symbolic.linear import reciprocal
+
+OVER, LASTS = 5.0, 10.0
+"""Correlation times of a bounded velocity: over which the force is averaged, and of a push. The
+longer the average, the less of a turn of 20 s is in it, and the less of a hand's motion. Chosen
+with seed 90 of the aircraft and drones of ``benchmarks/attitude_honesty.py``."""
+
+EXCEEDS = 3.0
+"""By which factor the mean square of that average must exceed what tilt and bounded velocity make
+of it, which they do with a probability of 5 %, exp(-3) of two axes."""
+
+LEAST = 0.3
+"""m/s^2; smaller pushes are no long ones: an accelerometer's bias of 20 mg turns with the body, and
+looks like them."""
+
+RISE, FALL = 3.0, 40.0
+"""Correlation times of a bounded velocity over which the variance is averaged, where it rises and
+where it falls: who turns now will turn again."""
+
+
+@dataclass(frozen=True)
+class LongPush:
+    """The mean ``force`` (2,) m/s^2 east and north, and the ``variance`` (m/s^2)^2 of an axis of
+    the pushes.
+    """
+
+    force: ca.SX
+    variance: ca.SX
+
+    @classmethod
+    def start(cls) -> LongPush:
+        return cls(ca.SX.zeros(2), ca.SX(0))
+
+    def pack(self) -> tuple:
+        return tuple(vars(self).values())
+
+    def density(self, time):
+        """(m/s^2)^2 s at low frequency, with the correlation ``time`` s of a bounded velocity."""
+        return 2 * LASTS * time * self.variance
+
+
+SIZES = (2, 1)
+"""Of what ``LongPush.pack`` gives."""
+
+
+def followed(before: LongPush, level, own, across, time, goes_on, used, h) -> LongPush:
+    """The same after one more sample.
+
+    ``level`` (2,) m/s^2 is the force east and north by the estimate, ``own`` (m/s^2)^2 the variance
+    that its tilt makes of an axis, ``across`` (m/s)^2 that of the velocity, of a correlation
+    ``time`` in s. ``goes_on`` and ``used`` 0 or 1 say whether the body may be pushed, and whether
+    the sample counts.
+    """
+    span = OVER * time + h
+    force = goes_on * (before.force + used * h / span * (level - before.force))
+    bounded = EXCEEDS * (own + across / span**2) + LEAST**2
+    found = ca.fmax(ca.sumsqr(force) / 2 - bounded, 0)
+    gain = h * reciprocal(ca.if_else(found > before.variance, RISE, FALL) * time + h)
+    return LongPush(force, before.variance + used * gain * (found - before.variance))
