@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{beda4927-27b3-cab2-f513-57d3696d60fb}"
-#define MODEL_TOKEN_FMI3 "{764f5284-d441-175a-a512-846c78043bde}"
+#define MODEL_TOKEN_FMI2 "{52faaae9-1162-7bc9-8463-63889eaf4fef}"
+#define MODEL_TOKEN_FMI3 "{2c528f8d-0d0a-812e-acd6-016b8c774b0b}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -30,7 +30,7 @@ enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2969 };
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 819313 };
+enum { MODEL_MOST_SAMPLES = 819134 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

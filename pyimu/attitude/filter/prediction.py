@@ -236,7 +236,7 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
     still, span = rest.still, ca.fmin(rest.still.span, 2 * SLOW)
     rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
     up, known, scalar = vertical(x), x.covariance[3:6, 3:6], at.settings.scalar
-    found = is_rest(rate, known, up, noise, span)
+    found = is_rest(rate, known, up, noise, span, still.rests > 0)
     unknown = ca.dot(up, known @ up) > UNKNOWN**2
     moves = turns(still, scalar["gravity"], white_variance(at.settings, at.h), at.h)
     now = begins(at.memory.stillness, still, scalar["rest_time"], unknown, moves, at.h)

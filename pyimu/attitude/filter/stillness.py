@@ -44,6 +44,11 @@ MOVES = 16.3
 GATE = 25.0
 """Squared difference of rate and bias over its variance beyond which a body turns steadily."""
 
+NEW = 9.0
+"""The same about the vertical of a body that was not at rest before. A bias of the standard
+deviation s is as probable there as an even turn of up to w where the square is 2 ln(w / s): 6 with
+0.05 and 1 deg/s."""
+
 UNKNOWN, LONGER, LEAST_TURN = 2e-3, 2.5, 6e-4
 """rad/s, s, rad/s; of a gyro whose bias about the vertical is less known than that a turn by hand
 would pass for a rest unless gravity moves in the body's axes. That it does not shows in so long a
@@ -163,15 +168,17 @@ def passes(before, after):
     return ca.floor(after * (1 / FAST)) > ca.floor(before * (1 / FAST))
 
 
-def is_rest(rate, covariance, up, noise, span):
+def is_rest(rate, covariance, up, noise, span, rests=1):
     """Whether a body that has been still for ``span`` s rests, 0 or 1.
 
     ``rate`` (3,) rad/s is its mean rate less the bias as it was known, with this ``covariance`` (3,
-    3); ``up`` (3,) is the vertical, ``noise`` (rad/s)^2 s the density of the gyro's white noise.
+    3); ``up`` (3,) is the vertical, ``noise`` (rad/s)^2 s the density of the gyro's white noise. A body that
+    ``rests``, 0 or 1, does so until that is contradicted.
     """
     along, own, white = ca.dot(up, rate), ca.dot(up, covariance @ up), noise / span
     level = ca.sumsqr(rate) - along**2 <= GATE * (ca.trace(covariance) - own + 2 * white)
-    return level * (along**2 <= GATE * (own + white))
+    gate = ca.if_else(rests, GATE, NEW)
+    return level * (along**2 <= gate * (own + white))
 
 
 def turns(x: Stillness, gravity, noise, h):
