@@ -172,8 +172,8 @@ def is_rest(rate, covariance, up, noise, span, rests=1):
     """Whether a body that has been still for ``span`` s rests, 0 or 1.
 
     ``rate`` (3,) rad/s is its mean rate less the bias as it was known, with this ``covariance`` (3,
-    3); ``up`` (3,) is the vertical, ``noise`` (rad/s)^2 s the density of the gyro's white noise. A body that
-    ``rests``, 0 or 1, does so until that is contradicted.
+    3); ``up`` (3,) is the vertical, ``noise`` (rad/s)^2 s the density of the gyro's white noise. A
+    body that ``rests``, 0 or 1, does so until that is contradicted.
     """
     along, own, white = ca.dot(up, rate), ca.dot(up, covariance @ up), noise / span
     level = ca.sumsqr(rate) - along**2 <= GATE * (ca.trace(covariance) - own + 2 * white)
