@@ -6,7 +6,7 @@ and heading in degrees of the package's filter, of vqf (Laidig and Seel 2023, th
 where it is not installed) and of a plain extended Kalman filter that is told the size of the
 motion, and the mean normalised estimation error squared (NEES) of tilt, heading and bias, 1 where
 the filter is as good as it says. The filter is told the noise of its part and what a case says,
-nothing of the motion.
+nothing of the motion; of the sensors of ``drives/bodies.py`` it is told nothing either.
 
 NEES is the mean over runs and instants of the squared error over the claimed variance. ``loses``
 marks an error above both peers', ``says too little`` a NEES above 1.3 (too sure) and ``too much``
@@ -15,7 +15,8 @@ What the filter has for constants of a drive's pushes and of the least motion of
 on runs 100 to 109 (``--first 100 --runs 10``) of the cases of hands and vehicles, when a body that
 looks still may drive on runs 100 to 129 of the vehicles, and over which times the size of a motion
 and its density are estimated with ``--seed`` 11, 5, 902, 903 and 904, by how much and for how long
-a speed may be off with ``--seed 85``.
+a speed may be off with ``--seed 85``, which pushes last with ``--seed 90`` of the aircraft and
+drones, when an even turn is no rest with ``--seed 92`` of the camera.
 
 With ``--smooth`` it is the smoothed attitude, each sample by the whole log, and vqf's
 ``offlineVQF`` is the peer; the extended Kalman filter stays one.
