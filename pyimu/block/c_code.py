@@ -1,11 +1,13 @@
-"""Functions of casadi in C, with the few lines of it that cost time written anew."""
+"""Functions of casadi in C, with what of it costs time written anew."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import casadi as ca
+
+from pyimu.block.straight import straight
 
 FASTER = {
     "casadi_copy(const casadi_real* x, casadi_int n, casadi_real* y) {": (
@@ -25,6 +27,15 @@ _IF_GIVEN = re.compile(r"arg\[(\d+)\]\? (arg\[\1\]\[\d+\]) : 0;")
 
 _FUNCTION = re.compile(r"^(?=static int |CASADI_SYMBOL_EXPORT int )", re.MULTILINE)
 
+_DEFINED = re.compile(
+    r"(?P<head>^/\* (?P<name>\w+):.*\n(?:static|CASADI_SYMBOL_EXPORT) int .*\{\n)(?:.*\n)*?\}\n",
+    re.MULTILINE,
+)
+"""The definition of a function, behind casadi's comment of what it takes and gives."""
+
+_LEFT_OUT = re.compile(r"\bres\d+\[\d+\]=0;")
+"""A result that a caller does not ask for."""
+
 _COPIED = re.compile(
     r"^  (?:if \(res\[\d+\]\) )?casadi_copy\((w\d+), \d+, ((res\[\d+\])(?:\+\d+)?)\);\n",
     re.MULTILINE,
@@ -32,19 +43,46 @@ _COPIED = re.compile(
 """A work vector that becomes a result, or a part of one."""
 
 
-def c_code(name: str, functions: Iterable[ca.Function]) -> str:
-    """The C of ``functions``, as casadi writes it for a file ``name``.
+Body = Callable[[ca.Function], str | None]
+"""What writes a function's body; None where casadi's stays."""
 
-    Whoever calls them gives every argument, and results places that are none of the arguments'.
+
+def c_code(name: str, functions: Iterable[ca.Function], body: Body = straight) -> str:
+    """The C of ``functions``, as casadi writes it for a file ``name``, but for each ``body``.
+
+    Whoever calls them gives every argument, and to every result a place that is no other's.
     """
-    generator = ca.CodeGenerator(name)
+    functions, generator = [*functions], ca.CodeGenerator(name)
     for function in functions:
         generator.add(function)
     text = generator.dump()
     for line, faster in FASTER.items():
         text = text.replace(line, faster)
     functions_in_c = _FUNCTION.split(_IF_GIVEN.sub(r"\2;", text))
-    return "".join(_in_place(function) for function in functions_in_c)
+    found = "".join(_in_place(function) for function in functions_in_c)
+    return found if _LEFT_OUT.search(found) else _with_bodies(found, _by_name(functions), body)
+
+
+def _by_name(functions: Iterable[ca.Function]) -> dict[str, ca.Function]:
+    """The plain lists of operations among ``functions`` and what they call, by their names; of a
+    name that two have, none.
+    """
+    found: dict[str, dict[int, ca.Function]] = {}
+    for one in functions:
+        for f in (one, *one.find_functions()):
+            found.setdefault(f.name(), {})[hash(f)] = f
+    alone = {name: [*same.values()] for name, same in found.items()}
+    return {n: f[0] for n, f in alone.items() if len(f) == 1 and f[0].is_a("SXFunction")}
+
+
+def _with_bodies(text: str, functions: dict[str, ca.Function], body: Body) -> str:
+    """The C ``text`` with a ``body`` of each of these ``functions`` in place of casadi's."""
+
+    def of(match: re.Match) -> str:
+        made = body(functions[match["name"]]) if match["name"] in functions else None
+        return match[0] if made is None else f"{match['head']}{made}}}\n"
+
+    return _DEFINED.sub(of, text)
 
 
 def _in_place(function: str) -> str:

@@ -24,9 +24,11 @@ from pathlib import Path
 import casadi as ca
 import numpy as np
 
-from pyimu.block.c_code import c_code
+from pyimu.block.c_code import Body, c_code
 from pyimu.block.cache import keep, kept, key_of
 from pyimu.block.prepared import Prepared
+from pyimu.block.straight import straight
+from pyimu.block.vectors import vectors
 from pyimu.errors import UserError
 from pyimu.held import work_folder
 
@@ -56,8 +58,14 @@ OWN = "-march=native"
 """Compiles for this very processor. What it has beside the least of its kind does the same
 arithmetic in fewer instructions, and the bits are the same."""
 
-HAND_WRITTEN = ("loop.h", "noise.c", "noise.h", "prefix.h")
+HAND_WRITTEN = ("loop.h", "noise.c", "noise.h", "prefix.h", "vector.h")
 """What of the hand-written C a library is made of."""
+
+VECTORS = '#include "vector.h"\n'
+
+VECTOR_WRITERS = ("alike.py", "vector_plan.py", "unit_order.py", "vectors.py")
+"""What makes vectors of the source by which a library is named: that takes longer than to write it,
+and is left until there is none."""
 
 LOOKED_FOR = 2_000
 """Samples of a step in one process, some milliseconds of the virtual machine, from which on the
@@ -143,8 +151,8 @@ class _MachineCode:
         self.rows += int(rows)  # two bools of numpy add up to one
         reached = (self.rows >= LOOKED_FOR) + (self.rows >= WORTHWHILE)
         if self.call is None and reached > self.tried:
-            library = _library(_source(self.step, self.prepared), reached == 2)
             functions = _functions(self.step, self.prepared)
+            library = _library(functions, reached == 2)
             self.tried, self.call = reached, library and _bind(library, functions)
         return self.call
 
@@ -154,23 +162,22 @@ def _functions(step: ca.Function, prepared: Prepared | None) -> list[ca.Function
     return [step] if prepared is None else [prepared.step, prepared.constants]
 
 
-def _source(step: ca.Function, prepared: Prepared | None = None) -> str:
+def _source(functions: list[ca.Function], body: Body = straight) -> str:
     """The step in C and the loop around it."""
-    functions = _functions(step, prepared)
+    step, *constants = functions
     sizes = {
         "NS": step.numel_in(0),
         "NU": step.numel_in(1),
         "NW": step.numel_in(3),
         "NY": step.numel_out(1),
-        "NC": prepared.constants.numel_out(0) if prepared else 0,
+        "NC": sum(f.numel_out(0) for f in constants),
         "SZ_ARG": max(f.sz_arg() for f in functions),
         "SZ_RES": max(f.sz_res() for f in functions),
-        "STEP": functions[0].name(),
+        "STEP": step.name(),
     }
-    if prepared:
-        sizes["CONSTANTS"] = prepared.constants.name()
+    sizes |= {"CONSTANTS": f.name() for f in constants}
     return (
-        c_code("step.c", functions)
+        c_code("step.c", functions, body)
         + "".join(f"#define {name} {value}\n" for name, value in sizes.items())
         + '#include "loop.h"\n'
     )
@@ -205,16 +212,16 @@ def _bind(library: ctypes.CDLL, functions: list[ca.Function]) -> Callable:
 _loaded: dict[str, ctypes.CDLL] = {}
 
 
-def _library(source: str, compile_it: bool) -> ctypes.CDLL | None:
+def _library(functions: list[ca.Function], compile_it: bool) -> ctypes.CDLL | None:
     compiler = compiler_command()
     if not compiler:
         return None
-    key = _key(source, tuple(compiler))
+    key = _key(_source(functions), tuple(compiler))
     if key not in _loaded:
         library = _from_cache(key)
         if library is None and compile_it:
             with contextlib.suppress(OSError, UserError):  # no place: the virtual machine does it
-                library = _compile(source, compiler, key)
+                library = _compile(functions, compiler, key)
         if library is None:
             return None
         _loaded[key] = library
@@ -224,16 +231,25 @@ def _library(source: str, compile_it: bool) -> ctypes.CDLL | None:
 def _key(source: str, compiler: tuple[str, ...]) -> str:
     """Whatever the library's bytes follow from, as a name."""
     hand_written = [(source_folder() / name).read_bytes() for name in HAND_WRITTEN]
+    writers = [Path(__file__).with_name(name).read_bytes() for name in VECTOR_WRITERS]
     # A home may be shared with machines of other processors.
     texts = [source, *FLAGS, sys.platform, platform.machine(), _processor(compiler)]
-    return key_of(compiler, *(t.encode() for t in texts), *hand_written)
+    return key_of(compiler, *(t.encode() for t in texts), *hand_written, *writers)
 
 
-def _compile(source: str, compiler: list[str], key: str) -> ctypes.CDLL | None:
+def _has_vectors(compiler: tuple[str, ...]) -> bool:
+    """Whether this processor has registers for vectors of four numbers, and the compiler a type."""
+    known = _processor(compiler)
+    return "#define __AVX2__ 1" in known and "#define __GNUC__" in known
+
+
+def _compile(functions: list[ca.Function], compiler: list[str], key: str) -> ctypes.CDLL | None:
     """Compile in a temporary folder, keep a copy in the cache and load the library.
 
     The library's own file is gone once it is loaded.
     """
+    wide = _has_vectors(tuple(compiler))
+    source = VECTORS * wide + _source(functions, vectors if wide else straight)
     with contextlib.suppress(OSError, UserError), work_folder() as folder:
         path, library, hand_written = folder / "run.c", folder / "run.so", source_folder()
         path.write_text(source, encoding="utf-8")

@@ -255,7 +255,7 @@ def test_library_is_found_by_another_process(cache):
 
 
 def test_another_step_flags_noise_or_processor_are_another_library(monkeypatch, tmp_path):
-    source, compiler = native._source(toy().step), ("cc",)
+    source, compiler = native._source([toy().step]), ("cc",)
     keys = [native._key(source, compiler), native._key(source + " ", compiler)]
     monkeypatch.setattr(native, "FLAGS", (*native.FLAGS, "-g"))
     keys.append(native._key(source, compiler))

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{959c6709-c95d-ed8b-7f45-ef7baef26125}"
-#define MODEL_TOKEN_FMI3 "{560090b0-c88f-ab98-7ac7-07776f9a6708}"
+#define MODEL_TOKEN_FMI2 "{80664a53-bd41-6b13-0438-950fbdef4dba}"
+#define MODEL_TOKEN_FMI3 "{66cbe428-810f-8ef9-dacc-01ea1982c86b}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{52faaae9-1162-7bc9-8463-63889eaf4fef}"
-#define MODEL_TOKEN_FMI3 "{2c528f8d-0d0a-812e-acd6-016b8c774b0b}"
+#define MODEL_TOKEN_FMI2 "{068f146f-c140-a6d2-154b-5cb7fc035bbc}"
+#define MODEL_TOKEN_FMI3 "{5040e736-f103-044e-c1ee-59edfd49a3f3}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

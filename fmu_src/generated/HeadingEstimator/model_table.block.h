@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{c19311ee-81ab-8b4e-3ee4-c93af9a0beb1}"
-#define MODEL_TOKEN_FMI3 "{75b720c5-7af7-9aac-adfa-a46ec137cdb3}"
+#define MODEL_TOKEN_FMI2 "{bd3eb740-ad89-5a93-4e42-a675121eac3d}"
+#define MODEL_TOKEN_FMI3 "{f82e2997-eac7-4f13-8c13-5124d860a1b5}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

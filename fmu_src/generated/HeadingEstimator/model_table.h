@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{e0fb9499-70a9-4ea3-751c-a64516ad0ad6}"
-#define MODEL_TOKEN_FMI3 "{399bda39-ee52-aee4-5fcb-c7a8e7aaccf1}"
+#define MODEL_TOKEN_FMI2 "{8bc9998c-5275-3783-85cc-1a292eea63e7}"
+#define MODEL_TOKEN_FMI3 "{91c099fa-9b1f-a060-951d-efe18ab1f21a}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

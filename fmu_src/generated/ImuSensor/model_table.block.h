@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN_FMI2 "{21065f6c-e141-984f-7979-d34757b45a70}"
-#define MODEL_TOKEN_FMI3 "{2d540344-b3e6-d1ee-088f-a8c05e5492a9}"
+#define MODEL_TOKEN_FMI2 "{65f8ac0c-2ec3-c2cb-af00-663d62df3e6b}"
+#define MODEL_TOKEN_FMI3 "{a74de4a9-3275-4d9e-f211-07e4081c4543}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "ImuSensor"
-#define MODEL_TOKEN_FMI2 "{f4a83da2-a1df-1145-3096-1e8a4797e5f5}"
-#define MODEL_TOKEN_FMI3 "{97ea992c-50a2-a8ec-f1cc-0a92550ae8d1}"
+#define MODEL_TOKEN_FMI2 "{5e31d50a-51b5-5c8a-6d92-fdb7a8de765a}"
+#define MODEL_TOKEN_FMI3 "{e81db4f4-7182-8a99-9782-9d5767e0fcb5}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN_FMI2 "{ec2b2043-7cad-6e08-6db6-671fd644adb2}"
-#define MODEL_TOKEN_FMI3 "{2e6dec8d-f9f5-a8ab-f05f-2401e2f822b8}"
+#define MODEL_TOKEN_FMI2 "{425b9add-9b35-2e96-2ea6-7a8e3bb68e48}"
+#define MODEL_TOKEN_FMI3 "{82d17ece-8078-70ba-4c58-a227d162434f}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN_FMI2 "{93ae4bb5-970d-8a80-3039-0cf3eefa911a}"
-#define MODEL_TOKEN_FMI3 "{4f0b4e6e-251d-0647-e494-0332f3a3699a}"
+#define MODEL_TOKEN_FMI2 "{5a8eaea1-03b0-6d35-dd3c-555bf71a5fce}"
+#define MODEL_TOKEN_FMI3 "{915b492b-a34e-737c-300c-661fde6fb789}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

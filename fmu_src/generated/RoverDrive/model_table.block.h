@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{42b562e3-1345-108a-38c5-85a397da73f4}"
-#define MODEL_TOKEN_FMI3 "{02599c3c-b27e-f2a4-043e-8842b059ef9f}"
+#define MODEL_TOKEN_FMI2 "{cfef3486-cb7d-77ac-143c-5afcfbaf170d}"
+#define MODEL_TOKEN_FMI3 "{58679184-339a-afcd-d102-7f8728f4e04e}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{de599095-11ae-0738-9a5b-877548ef8829}"
-#define MODEL_TOKEN_FMI3 "{70eb85f3-774f-bd70-7daf-0b427064cf9b}"
+#define MODEL_TOKEN_FMI2 "{57f0107a-dd9e-7aa5-8941-5170fa2f71a6}"
+#define MODEL_TOKEN_FMI3 "{494ded66-2ea8-be92-78ea-3ac9112a0dc4}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

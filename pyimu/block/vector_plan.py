@@ -1,0 +1,174 @@
+"""Which values of a program are made as lanes of vectors, in what order, and what that costs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+
+from pyimu.block.alike import MOST, Alike, Lanes
+
+Choice = dict[int, tuple[Lanes, int]]
+"""By number of an instruction the vector that has its value, and in which lane."""
+
+MORE = {
+    **dict.fromkeys((ca.OP_LT, ca.OP_LE, ca.OP_EQ, ca.OP_NOT, ca.OP_IF_ELSE_ZERO), (2.0, 2.0)),
+    **dict.fromkeys((ca.OP_FMIN, ca.OP_FMAX), (2.0, 3.0)),
+    ca.OP_COPYSIGN: (3.0, 3.0),
+    ca.OP_SQRT: (1.0, 2.0),
+}
+"""Instructions of a processor for an operation on a number and on a vector, where not one each."""
+
+Value = int | Lanes
+"""A number, by its instruction, or a vector."""
+
+STORED = {1: 1.0, 3: 2.3, 4: 1.0}
+"""The same that store so many lanes."""
+
+EXTRACTED = (0.0, 1.0, 1.3, 1.6)
+"""The same that take a number out of a lane."""
+
+READ = 0.35
+"""What a number that is read from memory adds to them: most operations take one along."""
+
+
+@dataclass(frozen=True)
+class Unit:
+    """Something that is done at once: a ``number`` is made, a ``lane`` taken out of a vector, a
+    vector ``computed``, ``read`` from consecutive numbers of an input, ``taken`` from ``window``
+    (input, first), that is four of these, or ``filled`` from what there is, and numbers or vectors
+    ``stored`` at ``place`` (result, entry).
+    """
+
+    kind: str
+    lanes: Lanes
+    place: tuple[int, int] | None = None
+
+
+class Cycle(Exception):
+    """Two vectors that wait for each other."""
+
+
+class Units:
+    """How values are made by a ``choice`` of vectors, and what that costs; ``sizes`` are those of
+    the inputs.
+    """
+
+    def __init__(self, alike: Alike, choice: Choice, sizes: list[int]) -> None:
+        self.alike, self.choice, self.sizes = alike, choice, sizes
+
+    def needs(self, value: Value) -> list[Value]:
+        """The values that are there before this one."""
+        if isinstance(value, int):
+            if value in self.choice:
+                return [self.choice[value][0]]
+            return [k for k in self.alike.operands[value] if not self.alike.is_leaf(k)]
+        if self._is_computed(value):
+            return [*self.alike.aligned(value)]
+        return self._sources(value)
+
+    def number(self, k: int) -> float:
+        """The cost of a value as a number."""
+        if k in self.choice:
+            return EXTRACTED[self.choice[k][1]]
+        read = sum(self.alike.read[j] is not None for j in self.alike.operands[k])
+        return MORE.get(self.alike.op[k], (1.0, 1.0))[0] + READ * read
+
+    def _is_computed(self, lanes: Lanes) -> bool:
+        return self.choice.get(lanes[0], (None, 0))[0] == lanes
+
+    def _sources(self, lanes: Lanes) -> list[Value]:
+        """The vectors and numbers of which a vector is filled, inputs and constants apart."""
+        found = (self.choice[k][0] if k in self.choice else k for k in lanes)
+        return [
+            *dict.fromkeys(v for v in found if isinstance(v, tuple) or not self.alike.is_leaf(v))
+        ]
+
+    def vector(self, lanes: Lanes) -> tuple[Unit, float]:
+        """How a vector is made, and the cost."""
+        alike, first = self.alike, lanes[0]
+        if self._is_computed(lanes):
+            return Unit("computed", lanes), MORE.get(alike.op[first], (1.0, 1.0))[1]
+        filled, same = Unit("filled", lanes), all(k == first for k in lanes)
+        if all(alike.op[k] == ca.OP_CONST for k in lanes):
+            return filled, 0.3
+        if same and alike.is_leaf(first):
+            return filled, 0.5
+        window = self._window(lanes)
+        if window is not None:
+            entries = [alike.read[k][1] for k in lanes]
+            if entries == [*range(window[1], window[1] + len(lanes))]:
+                return Unit("read", lanes, window), 0.7
+            return Unit("taken", lanes, window), 1.2
+        sources = {self.choice[k][0] if k in self.choice else None for k in lanes}
+        if same or (None not in sources and len(sources) <= 2):
+            return filled, 1.0 if same or len(sources) == 1 else 1.5
+        return filled, len(lanes) + 0.3 * sum(alike.read[k] is not None for k in lanes)
+
+    def _window(self, lanes: Lanes) -> tuple[int, int] | None:
+        """Where four consecutive numbers of an input begin that have all lanes."""
+        read = [self.alike.read[k] for k in lanes]
+        if any(r is None or r[0] != read[0][0] for r in read):
+            return None
+        entries = [r[1] for r in read]
+        start = min(*entries, self.sizes[read[0][0]] - MOST)
+        return (read[0][0], start) if 0 <= start and max(entries) < start + MOST else None
+
+
+class Plan:
+    """The units that make the results of a program by a ``choice`` of vectors, and their ``cost``.
+
+    ``sizes`` are those of the inputs. Raises Cycle where the vectors cannot be made one after the
+    other.
+    """
+
+    def __init__(self, alike: Alike, choice: Choice, sizes: list[int]) -> None:
+        self.alike, self.choice = alike, choice
+        self.made_by = Units(alike, choice, sizes)
+        self.units: list[Unit] = []
+        self.cost = 0.0
+        self._begun: dict[Value, bool] = {}
+        for number, entries in alike.results.items():
+            self._store(number, entries)
+
+    def _store(self, number: int, entries: dict[int, int]) -> None:
+        stored: set[int] = set()
+        for entry, k in entries.items():
+            if entry in stored:
+                continue
+            lanes, lane = self.choice.get(k, ((k,), 0))
+            if not self.alike.is_leaf(k):
+                self._make(lanes if len(lanes) > 1 else k)
+            if lane or any(entries.get(entry + n) != j for n, j in enumerate(lanes)):
+                lanes = (k,)
+            self.cost += STORED[len(lanes)] + (len(lanes) == 1) * (lane > 1)
+            stored.update(range(entry, entry + len(lanes)))
+            self.units.append(Unit("stored", lanes, (number, entry)))
+
+    def _make(self, wanted: Value) -> None:
+        """Append what a value needs, and then itself, as far as it is not there yet."""
+        stack = [(wanted, iter((wanted,)))]
+        while stack:
+            value, needs = stack[-1]
+            following = next((v for v in needs if not self._begun.get(v)), None)
+            if following is None:
+                stack.pop()
+                if stack:
+                    self._begun[value] = True
+                    self._finish(value)
+            elif following in self._begun:
+                raise Cycle
+            else:
+                self._begun[following] = False
+                stack.append((following, iter(self.made_by.needs(following))))
+
+    def _finish(self, value: Value) -> None:
+        """Append a value whose needs are there."""
+        if isinstance(value, tuple):
+            unit, cost = self.made_by.vector(value)
+            self.units.append(unit)
+        else:
+            cost = self.made_by.number(value)
+            if value not in self.choice:
+                self.units.append(Unit("number", (value,)))
+        self.cost += cost
