@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterable, Iterator
 from functools import cached_property
 
 import casadi as ca
@@ -12,8 +12,8 @@ from pyimu.block.program import LEAVES, Program
 Lanes = tuple[int, ...]
 """Numbers of three or four instructions, one for each lane of a vector."""
 
-MOST = 4
-"""Lanes of a vector."""
+AXES, MOST = 3, 4
+"""Lanes of a vector that are used where three axes are alike, and all that it has."""
 
 VECTOR = {
     ca.OP_ADD: "{0}+{1}",
@@ -116,31 +116,28 @@ class Alike:
 
     # Where vectors may begin
 
-    def neighbours(self) -> Iterator[Lanes]:
-        """Operations whose values stand together in a result."""
-        for entries in self.results.values():
-            for entry in entries:
-                yield from self._groups(
-                    [entries[e] for e in range(entry, entry + MOST) if e in entries]
-                )
+    def neighbours(self) -> list[Lanes]:
+        """Operations whose values stand together in a result, three of them, the last first."""
+        groups = (list(entries.values()) for entries in self.results.values())
+        return [*self._groups(groups, AXES)][::-1]
 
-    def likenesses(self, others: Container[int]) -> Iterator[Lanes]:
-        """Operations, ``others`` apart, that are made alike, those first that have most behind
-        them.
+    def likenesses(self, others: Container[int]) -> list[Lanes]:
+        """Operations, ``others`` apart, that are made alike, in threes and then in fours, those
+        first that have most behind them.
         """
         made: dict[tuple, list[int]] = {}
         for k, op in enumerate(self.op):
             if op in VECTOR and k not in others:
                 made.setdefault((self.depth[k], self._made_of(k, DEPTH)), []).append(k)
-        for _, same in sorted(made.items(), key=lambda item: (-item[0][0], item[1])):
-            for at in range(len(same)):
-                yield from self._groups(same[at : at + MOST])
+        groups = [same for _, same in sorted(made.items(), key=lambda item: (-item[0][0], item[1]))]
+        return [lanes for size in (AXES, MOST) for lanes in self._groups(groups, size)]
 
-    def _groups(self, values: list[int]) -> Iterator[Lanes]:
-        for size in (MOST, MOST - 1):
-            lanes = tuple(values[:size])
-            if len(lanes) == size and self.together(lanes):
-                yield lanes
+    def _groups(self, groups: Iterable[list[int]], size: int) -> Iterator[Lanes]:
+        for values in groups:
+            for at in range(len(values) - size + 1):
+                lanes = tuple(values[at : at + size])
+                if self.together(lanes):
+                    yield lanes
 
     def _made_of(self, k: int, depth: int) -> tuple:
         """Of which operations a value is made."""

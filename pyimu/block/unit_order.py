@@ -7,6 +7,7 @@ operations of the thousands of a step. In casadi's order many of these wait for 
 from __future__ import annotations
 
 from heapq import heappop, heappush
+from math import frexp
 
 import casadi as ca
 
@@ -74,8 +75,16 @@ def _listed(waiting: list, followers, missing, start, left, cycles) -> list[int]
 
 def _cycles(plan: Plan, unit: Unit) -> int:
     if unit.kind in ("number", "computed"):
-        return CYCLES.get(plan.alike.op[unit.lanes[0]], USUAL)
+        op, operands = plan.alike.op[unit.lanes[0]], plan.alike.operands[unit.lanes[0]]
+        if op == ca.OP_DIV and _is_power_of_two(plan, operands[1]):
+            return USUAL  # a compiler multiplies
+        return CYCLES.get(op, USUAL)
     return STORED if unit.kind == "stored" else FILLED
+
+
+def _is_power_of_two(plan: Plan, k: int) -> bool:
+    one = plan.alike.one.instructions[k]
+    return one.op == ca.OP_CONST and abs(frexp(one.value)[0]) == 0.5
 
 
 def _needs(plan: Plan) -> list[set[int]]:
