@@ -3,9 +3,9 @@ from Python.
 
 ``python benchmarks/filter_speed.py [samples]``; needs vqf and filterpy, which the package itself
 does not. The filter is the FMU's C (gcc -O3 for this processor, no fast-math, no contracted
-multiply-adds), run by ``Block.run``; vqf its C++ through its Python package, in one batch. They run
-by turns, and of each the fastest round counts, which is the one that others on the machine
-disturbed least.
+multiply-adds), with vectors where the processor has AVX2, run by ``Block.run``; vqf its C++ through
+its Python package, in one batch. They run by turns, and of each the fastest round counts, which is
+the one that others on the machine disturbed least.
 """
 
 import sys

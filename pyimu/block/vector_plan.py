@@ -37,7 +37,7 @@ class Unit:
     """Something that is done at once: a ``number`` is made, a ``lane`` taken out of a vector, a
     vector ``computed``, ``read`` from consecutive numbers of an input, ``taken`` from ``window``
     (input, first), that is four of these, or ``filled`` from what there is, and numbers or vectors
-    ``stored`` at ``place`` (result, entry).
+    ``stored`` at ``place`` (result, entry), or four ``copied`` there from an input.
     """
 
     kind: str
@@ -136,6 +136,12 @@ class Plan:
         for entry, k in entries.items():
             if entry in stored:
                 continue
+            copied = self._copied(entries, entry)
+            if copied:
+                stored.update(range(entry, entry + MOST))
+                self.cost += STORED[MOST]
+                self.units.append(Unit("copied", copied, (number, entry)))
+                continue
             lanes, lane = self.choice.get(k, ((k,), 0))
             if not self.alike.is_leaf(k):
                 self._make(lanes if len(lanes) > 1 else k)
@@ -144,6 +150,15 @@ class Plan:
             self.cost += STORED[len(lanes)] + (len(lanes) == 1) * (lane > 1)
             stored.update(range(entry, entry + len(lanes)))
             self.units.append(Unit("stored", lanes, (number, entry)))
+
+    def _copied(self, entries: dict[int, int], entry: int) -> Lanes:
+        """Four consecutive numbers of an input that become a result as they are; else nothing."""
+        lanes = tuple(entries.get(entry + n, entries[entry]) for n in range(MOST))
+        read = [self.alike.read[k] for k in lanes]
+        first = read[0]
+        if first and read == [(first[0], first[1] + n) for n in range(MOST)]:
+            return lanes
+        return ()
 
     def _make(self, wanted: Value) -> None:
         """Append what a value needs, and then itself, as far as it is not there yet."""

@@ -94,7 +94,7 @@ class _Text:
     def _of(self, unit: Unit) -> list[str]:
         if unit.kind == "number":
             return [f"const casadi_real {self._number(unit.lanes[0])}={self._operation(unit)};"]
-        if unit.kind == "stored":
+        if unit.kind in ("stored", "copied"):
             return self._stored(unit)
         name = self.vectors[unit.lanes] = f"p{len(self.vectors)}"
         before = []
@@ -118,6 +118,9 @@ class _Text:
 
     def _stored(self, unit: Unit) -> list[str]:
         number, entry = unit.place
+        if unit.kind == "copied":
+            given, first = self.alike.read[unit.lanes[0]]
+            return [f"STORE4(o{number}+{entry},VECTOR4_AT(i{given}+{first}));"]
         if len(unit.lanes) == 1:
             return [f"o{number}[{entry}]={self._number(unit.lanes[0])};"]
         name, kind = self.vectors[unit.lanes], len(unit.lanes)

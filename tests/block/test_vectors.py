@@ -134,3 +134,17 @@ def test_a_name_that_two_functions_have_stays_as_casadi_writes_it():
     v = ca.MX.sym("v", 3)
     outer = ca.Function("outer", [v], [inner[0](v) + inner[1](v)])
     assert "restrict i0" not in c_code("code", [outer])
+
+
+def test_what_is_handed_on_is_copied_by_fours_and_read_by_itself():
+    """A result that is an input stands beside a vector of the same four numbers."""
+    x = ca.SX.sym("x", 9)
+    function = ca.Function("handed", [x], [x, x[:4] * x[4:8]])
+    text = vectors(function)
+    assert text.count("STORE4(o0+") == 2 and "o0[8]=i0[8];" in text
+    lines = text.splitlines()
+    (product,) = (
+        n for n, line in enumerate(lines) if "*" in line.partition("=")[2] and "Vector4 p" in line
+    )
+    for name in lines[product].partition("=")[2].strip("; ").split("*"):
+        assert any(f"Vector4 {name}=" in line for line in lines[:product])
