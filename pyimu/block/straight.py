@@ -52,7 +52,7 @@ def straight(function: ca.Function) -> str | None:
     done = [i for i in one.instructions if i.op not in (ca.OP_INPUT, ca.OP_CONST)]
     if not done or any(i.op not in SPELLED for i in done):
         return None
-    lines = [*places(function)]
+    lines = places(one)
     wanted = results_of(one)
     for k, i in enumerate(one.instructions):
         if i.op in SPELLED:
@@ -67,11 +67,14 @@ def as_body(lines: Sequence[str]) -> str:
     return "".join(f"  {line}\n" for line in (*lines, "return 0;"))
 
 
-def places(function: ca.Function) -> list[str]:
-    """Lines that name the arguments i0, i1, ... and the results o0, o1, ... of a ``function``."""
-    given = [f"const casadi_real *restrict i{k}=arg[{k}];" for k in range(function.n_in())]
-    asked = [f"casadi_real *restrict o{k}=res[{k}];" for k in range(function.n_out())]
-    return given + asked
+def places(one: Program) -> list[str]:
+    """Lines that name the arguments i0, i1, ... of a program that it reads, and its results o0, o1,
+    ...
+    """
+    read = {i.of[0] for i in one.instructions if i.op == ca.OP_INPUT}
+    given = [f"const casadi_real *restrict i{k}=arg[{k}];" for k in sorted(read)]
+    made = sorted({number for number, _ in one.outputs})
+    return given + [f"casadi_real *restrict o{k}=res[{k}];" for k in made]
 
 
 def results_of(one: Program) -> dict[int, list[tuple[int, int]]]:

@@ -31,7 +31,7 @@ def vectors(function: ca.Function) -> str | None:
     sizes = [function.nnz_in(k) for k in range(function.n_in())]
     alike = Alike(one)
     plan = Plan(alike, chosen(alike, sizes), sizes)
-    return as_body([*places(function), *_Text(alike, plan.choice).lines(ordered(plan))])
+    return as_body([*places(one), *_Text(alike, plan.choice).lines(ordered(plan))])
 
 
 def chosen(alike: Alike, sizes: list[int]) -> Choice:

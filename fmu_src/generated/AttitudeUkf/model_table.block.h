@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{80664a53-bd41-6b13-0438-950fbdef4dba}"
-#define MODEL_TOKEN_FMI3 "{66cbe428-810f-8ef9-dacc-01ea1982c86b}"
+#define MODEL_TOKEN_FMI2 "{8b747d82-95fd-1114-33ef-b23a50ef4927}"
+#define MODEL_TOKEN_FMI3 "{406a8003-145a-84b6-d4fa-a7a94fad59dc}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

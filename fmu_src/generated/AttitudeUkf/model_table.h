@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{068f146f-c140-a6d2-154b-5cb7fc035bbc}"
-#define MODEL_TOKEN_FMI3 "{5040e736-f103-044e-c1ee-59edfd49a3f3}"
+#define MODEL_TOKEN_FMI2 "{09a3656e-a39e-5de4-e7c9-dfd240419ca6}"
+#define MODEL_TOKEN_FMI3 "{70c39702-77f3-6d28-0102-efba376dec61}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

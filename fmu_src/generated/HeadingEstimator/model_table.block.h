@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{bd3eb740-ad89-5a93-4e42-a675121eac3d}"
-#define MODEL_TOKEN_FMI3 "{f82e2997-eac7-4f13-8c13-5124d860a1b5}"
+#define MODEL_TOKEN_FMI2 "{9e013fbf-3864-0233-c16c-0c02898b2790}"
+#define MODEL_TOKEN_FMI3 "{fe2b6689-fca9-365d-1df8-b5276f58b88a}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

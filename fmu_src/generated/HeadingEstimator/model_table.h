@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{8bc9998c-5275-3783-85cc-1a292eea63e7}"
-#define MODEL_TOKEN_FMI3 "{91c099fa-9b1f-a060-951d-efe18ab1f21a}"
+#define MODEL_TOKEN_FMI2 "{cad49dc0-dddc-7b6c-f17a-c095a4a84747}"
+#define MODEL_TOKEN_FMI3 "{ada7aa91-dc5d-f6a2-6e2a-06b1bfaa9b53}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN_FMI2 "{425b9add-9b35-2e96-2ea6-7a8e3bb68e48}"
-#define MODEL_TOKEN_FMI3 "{82d17ece-8078-70ba-4c58-a227d162434f}"
+#define MODEL_TOKEN_FMI2 "{deaa4cfd-2802-5209-1d01-2fa8e1ba07bb}"
+#define MODEL_TOKEN_FMI3 "{6dda08f3-8317-597d-06b3-fc03d385a012}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "LowPass"
-#define MODEL_TOKEN_FMI2 "{5a8eaea1-03b0-6d35-dd3c-555bf71a5fce}"
-#define MODEL_TOKEN_FMI3 "{915b492b-a34e-737c-300c-661fde6fb789}"
+#define MODEL_TOKEN_FMI2 "{e15be25a-36a7-a55b-4a8e-6c396e077893}"
+#define MODEL_TOKEN_FMI3 "{7150a997-35e7-5912-984f-3311dfc8a62a}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

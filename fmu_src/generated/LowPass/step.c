@@ -99,7 +99,6 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
   const casadi_real *restrict i2=arg[2];
-  const casadi_real *restrict i3=arg[3];
   const casadi_real *restrict i4=arg[4];
   casadi_real *restrict o0=res[0];
   casadi_real *restrict o1=res[1];

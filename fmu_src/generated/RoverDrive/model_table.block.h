@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{cfef3486-cb7d-77ac-143c-5afcfbaf170d}"
-#define MODEL_TOKEN_FMI3 "{58679184-339a-afcd-d102-7f8728f4e04e}"
+#define MODEL_TOKEN_FMI2 "{fc26ca26-4cb7-1e2e-0fd8-478be8f05751}"
+#define MODEL_TOKEN_FMI3 "{804a7aa0-4cc4-44d3-e919-237e0b27fa42}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

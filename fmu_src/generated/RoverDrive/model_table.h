@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{57f0107a-dd9e-7aa5-8941-5170fa2f71a6}"
-#define MODEL_TOKEN_FMI3 "{494ded66-2ea8-be92-78ea-3ac9112a0dc4}"
+#define MODEL_TOKEN_FMI2 "{d71da6e1-d444-15a7-0dc2-7d1391081930}"
+#define MODEL_TOKEN_FMI3 "{ea1366c2-5dd8-5ba9-de2d-87ca24e21cfc}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

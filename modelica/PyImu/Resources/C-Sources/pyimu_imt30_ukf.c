@@ -473,7 +473,6 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
 
 /* which_row:(i0[83],i1[81],i2[18],i3[104])->(o0) */
 static int casadi_f2(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
   const casadi_real *restrict i2=arg[2];
   const casadi_real *restrict i3=arg[3];
@@ -8828,11 +8827,6 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
 static int casadi_f8(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
-  const casadi_real *restrict i2=arg[2];
-  const casadi_real *restrict i3=arg[3];
-  const casadi_real *restrict i4=arg[4];
-  const casadi_real *restrict i5=arg[5];
-  const casadi_real *restrict i6=arg[6];
   const casadi_real *restrict i7=arg[7];
   casadi_real *restrict o0=res[0];
   casadi_real *restrict o1=res[1];
@@ -9327,10 +9321,6 @@ static int casadi_f8(const casadi_real** arg, casadi_real** res, casadi_int* iw,
 static int casadi_f9(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
-  const casadi_real *restrict i2=arg[2];
-  const casadi_real *restrict i3=arg[3];
-  const casadi_real *restrict i4=arg[4];
-  const casadi_real *restrict i5=arg[5];
   const casadi_real *restrict i6=arg[6];
   const casadi_real *restrict i7=arg[7];
   casadi_real *restrict o0=res[0];
@@ -23626,7 +23616,6 @@ static int pyimu_imt30_ukf_step(const casadi_real** arg, casadi_real** res, casa
 
 /* initial:(u[18],p[63])->(s[333],y[21]) */
 static int casadi_f44(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
   casadi_real *restrict o0=res[0];
   casadi_real *restrict o1=res[1];
