@@ -187,7 +187,7 @@ def _state(fit: Fit, trial: Trial) -> tuple[LogState, Trial]:
     """
     if trial.parent is not None or trial.name not in fit.states:
         return held_state(fit, trial)
-    whole = replace(trial, left_out=None)
+    whole = replace(trial, left_out=None, limited=None)
     state = replace(fit.states[trial.name], bias=np.zeros(3))
     bias = in_band(whole, residual(fit.sensor, whole, state)).mean(axis=0)
     return replace(state, bias=bias), whole

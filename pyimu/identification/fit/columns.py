@@ -19,6 +19,7 @@ from pyimu.identification.fit.keys import (
     LogTurn,
     coefficient_of,
 )
+from pyimu.identification.fit.limited import without_limit
 from pyimu.identification.fit.reduction import Rows
 from pyimu.identification.fit.response import (
     Columns,
@@ -102,11 +103,16 @@ def in_log(sensor: Sensor, state: LogState) -> Sensor:
 
 
 def residual(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:
-    """Measured less model (n, 3), at the sample rate."""
+    """Measured less model (n, 3), at the sample rate; zero where the output is known to stop."""
     u = reference_input(trial, state)
-    return trial.y - predict(
-        in_log(sensor, state), u, trial.segments, trial.h, before(trial, state)
-    )
+    sensor, weights = without_limit(sensor, trial)
+    y = predict(in_log(sensor, state), u, trial.segments, trial.h, before(trial, state))
+    return _counting(trial.y - y, weights)
+
+
+def _counting(values: np.ndarray, share: np.ndarray | None) -> np.ndarray:
+    """Values of samples by what these count for."""
+    return values if share is None else share * values
 
 
 def in_band(trial: Trial, values: np.ndarray) -> np.ndarray:
@@ -132,12 +138,15 @@ class Regressors:
     (``normal.DEAD``) is far above its rounding.
     """
 
-    def __init__(self, trial: Trial, many: bool = False) -> None:
+    def __init__(self, trial: Trial, many: bool = False, weights: np.ndarray | None = None) -> None:
+        self.weights = weights
         self.trial, self.precision = trial, np.float32 if many else np.float64
         self.items: list[tuple[Key, int, np.ndarray]] = []
 
     def add(self, key: Key, axis: int, values: np.ndarray) -> None:
         if axis in self.trial.axes and _is_any(values):
+            share = None if self.weights is None else self.weights[:, axis]
+            values = _counting(values, share)
             self.items.append((key, axis, values.astype(self.precision, copy=False)))
 
     def filtered(self) -> tuple[dict[int, list[Key]], dict[int, Stack]]:
@@ -171,6 +180,7 @@ def linearise(
     wanted = frozenset(wanted)
     rows = None if trial.reduction is None else trial.rows(sensor, state.bias)
     u = reference_input(trial, state) if rows is None else rows.u
+    sensor, weights = without_limit(sensor, trial)
     own, sensor = OWN[trial.kind], in_log(sensor, state)
     rest = after_dynamics(sensor)
     earlier = None if rows is not None else before(trial, state)
@@ -179,7 +189,7 @@ def linearise(
     response = memoryless(rest.chain)
     keys = [_keys_of(s, trial, sensor.kind, wanted) for s in rest.slots]
     some = np.array([bool(k) for k in keys], dtype=bool)
-    out = Regressors(trial, bool(extra))
+    out = Regressors(trial, bool(extra), weights)
     y, slope, entries = response(moved, rest.p, trial.h, some[response.slot], out.precision)
     if remembers(sensor):
         y = predict(sensor, u, trial.segments, trial.h)
@@ -200,7 +210,7 @@ def linearise(
     return Linear(
         band_time(trial),
         band_segments(trial),
-        in_band(trial, trial.y - y),
+        in_band(trial, _counting(trial.y - y, weights)),
         keys,
         columns,
     )
@@ -215,9 +225,12 @@ def _keys_of(s: Slot, trial: Trial, kind: str, wanted: frozenset[Key]) -> list[K
     return found
 
 
-def with_columns(one: Linear, trial: Trial, state: LogState, extra: Iterable) -> Linear:
+def with_columns(
+    one: Linear, sensor: Sensor, trial: Trial, state: LogState, extra: Iterable
+) -> Linear:
     """A linearised trial of samples with the columns that functions ``(trial, u, add)`` add."""
-    u, out = reference_input(trial, state), Regressors(trial)
+    u = reference_input(trial, state)
+    out = Regressors(trial, weights=without_limit(sensor, trial)[1])
     for function in extra:
         function(trial, u, out.add)
     keys, columns = out.filtered()

@@ -148,7 +148,7 @@ class Fit:
     def beside(self, linears: Iterable[Linear], extra: Iterable) -> list[Linear]:
         """All trials as they were linearised, with the columns that functions ``extra`` add."""
         return [
-            with_columns(one, t, self.states[t.name], extra)
+            with_columns(one, self.sensor, t, self.states[t.name], extra)
             for one, t in zip(linears, self.trials, strict=True)
         ]
 

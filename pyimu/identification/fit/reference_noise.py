@@ -88,6 +88,13 @@ def drawn_again(fit: Fit, held: list[Trial], believed: bool) -> tuple[Fit, list[
     """
     if not _is_outdrawn(fit):
         return fit, held
+    return drawn_anew(fit, held, believed)
+
+
+def drawn_anew(fit: Fit, held: list[Trial], believed: bool) -> tuple[Fit, list[Trial]]:
+    """The fit and the held-out trials with a new draw of their reference's noise, as what this
+    model leaves has it.
+    """
     return with_reference_noise(undrawn(fit), list(map(_without_draw, held)), believed)
 
 

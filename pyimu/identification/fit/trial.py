@@ -23,6 +23,7 @@ from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, SIGNALS, START, SURROUNDINGS
 from pyimu.recording.clock import runs
 from pyimu.recording.complete import completed
+from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.quality.healing import healed, short_runs
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording, filled
@@ -83,7 +84,8 @@ class Trial:
     have noise that was not drawn. ``reduction`` is how samples become rows where these are whole
     stretches of the log. ``samples`` (m, 3) are those of the reference at times of its own, where
     it was measured itself. ``healed`` (n, 3) is what was taken off samples that look like spikes,
-    where there are any.
+    where there are any; ``limited`` (n, 3) marks those that lie where the output stops and that a
+    band would spread.
     """
 
     name: str
@@ -112,6 +114,7 @@ class Trial:
     place: Place | None = None
     samples: np.ndarray | None = None
     healed: np.ndarray | None = None
+    limited: np.ndarray | None = None
 
     @cached_property
     def band(self) -> Band:
@@ -175,6 +178,7 @@ class Trial:
             segments=inside,
             left_out=flags,
             healed=None if self.healed is None else self.healed[start:stop],
+            limited=None if self.limited is None else self.limited[start:stop],
             earlier=earlier if len(earlier) else None,
             noise=None if self.noise is None else self.noise[start:stop],
             place=None if self.place is None else self.place.part(start, stop),
@@ -455,9 +459,11 @@ def bad_samples(values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.n
 
 def repeated(values: np.ndarray) -> np.ndarray:
     """Rows (n,) that repeat the row before on every axis, where the values are fine enough for that
-    not to happen by itself.
+    not to happen by itself, and not as all axes lie at their limits.
     """
     same = np.concatenate([[False], (np.diff(values, axis=0) == 0).all(axis=1)])
+    if same.any():
+        same &= ~np.all([clipped(column) for column in values.T], axis=0)
     by_axis = [np.mean(np.diff(column) == 0) for column in values.T]
     return (
         same
@@ -472,8 +478,11 @@ def known_to_all(trials: Iterable[Trial]) -> frozenset[str]:
 
 
 def counted(trial: Trial, axis: int) -> np.ndarray:
-    """The samples (k,) of an axis that regression draws on."""
-    return np.concatenate([trial.y[a:b, axis] for a, b in trial.row_segments] or [np.zeros(0)])
+    """The samples (k,) of an axis that regression draws on, less what stands in for others."""
+    rows = marked(trial.row_segments, len(trial.y))
+    if trial.healed is not None:
+        rows &= trial.healed[:, axis] == 0.0
+    return trial.y[rows, axis]
 
 
 def marked(segments: list[tuple[int, int]], n: int) -> np.ndarray:

@@ -107,7 +107,9 @@ def trial_of(recording: Recording, kind: str, fixed: bool = True) -> Trial:
     whole = [(0, len(log.time))]
     if np.ptp(log.temperature) == 0.0:
         trial.u[:, COLUMNS["temperature_rate"]] = 0.0  # its slope by differences is rounding
-    return replace(trial, left_out=None, segments=whole, findings=(), free_rotation=not fixed)
+    return replace(
+        trial, left_out=None, limited=None, segments=whole, findings=(), free_rotation=not fixed
+    )
 
 
 def trial(

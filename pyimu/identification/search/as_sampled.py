@@ -14,6 +14,7 @@ import numpy as np
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.limited import with_limited
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.candidates import equivalent, scanned
@@ -55,12 +56,16 @@ class Read:
         return frozenset(Coefficient(self.effect, self.parameter, (i,)) for i in axes)
 
     def put_in(self, fitted: Fit) -> Fit:
-        """A fit with the effect, all else fitted again, and the effect too where it has a slope."""
+        """A fit with the effect, all else fitted again, and the effect too where it has a slope: of
+        samples that a band spreads those at a ceiling count for nothing, and leave it none.
+        """
         sensor = fitted.sensor.with_values(self.effect, **{self.parameter: self.values})
         std = {**fitted.std, **{k: float(self.std[k.index]) for k in self.keys}}
-        sloped = scanned(CATALOGUE[self.effect]) is None
+        trials = tuple(with_limited(sensor, t) for t in fitted.trials)
+        counting = all(t.limited is None for t in trials)
+        sloped = counting and scanned(CATALOGUE[self.effect]) is None
         free = fitted.free | (self.keys if sloped else frozenset())
-        return fit(replace(fitted, sensor=sensor, free=free, std=std).with_noise())
+        return fit(replace(fitted, sensor=sensor, trials=trials, free=free, std=std).with_noise())
 
     def borne_out(self, before: Fit) -> tuple[Read | None, Fit]:
         """The coefficient on the axes on which regression does not deny it, None where it denies
@@ -83,8 +88,8 @@ def threshold_of(fitted: Fit, held: Sequence[Trial]) -> Read | None:
 
     Hard or soft say the zeros, and regression, which sees whether larger inputs lose by it.
     """
-    hard = _looked_for(fitted, held, THRESHOLD)
-    if hard is None:
+    hard = _looked_for(fitted, THRESHOLD)
+    if hard is None or not has_samples([*fitted.trials, *held]):
         return None
     seen = {i: zeros(fitted, held, i) for i in fitted.trials[0].axes}
     found = {i: z for i, z in seen.items() if z is not None}
@@ -100,9 +105,12 @@ def threshold_of(fitted: Fit, held: Sequence[Trial]) -> Read | None:
 
 
 def ceiling_of(fitted: Fit, held: Sequence[Trial]) -> Read | None:
-    """The level at which the output stops, None where the samples show none."""
-    found = _looked_for(fitted, held, CEILING)
-    if found is None:
+    """The level at which the output stops, None where the samples show none.
+
+    They do so too where rows are made of many by a band, which are fitted to those below it then.
+    """
+    found = _looked_for(fitted, CEILING)
+    if found is None or fitted.is_reduced:
         return None
     tops = {i: piled([*fitted.trials, *held], i) for i in fitted.trials[0].axes}
     return _read(
@@ -115,13 +123,13 @@ def ceiling_of(fitted: Fit, held: Sequence[Trial]) -> Read | None:
     )
 
 
-def _looked_for(fitted: Fit, held: Sequence[Trial], what: str) -> tuple[str, str] | None:
+def _looked_for(fitted: Fit, what: str) -> tuple[str, str] | None:
     """Effect and coefficient that are read off as ``what``; None where the model has one of that
-    family, or rows are no samples.
+    family.
     """
     kind, had = fitted.sensor.kind, fitted.sensor.values
     found = read_off((e for e in CATALOGUE.values() if kind in e.sensors), what)
-    if found is None or not has_samples([*fitted.trials, *held]):
+    if found is None:
         return None
     same = {found[0], *equivalent(found[0])} & set(had)
     return None if any(fitted.sensor.acts(name) for name in same) else found

@@ -17,6 +17,7 @@ from scipy.special import erfcx
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.inputs import LogState, reference_input
 from pyimu.identification.fit.keys import Coefficient, Key
+from pyimu.identification.fit.limited import CEILING, OVER, ceiling_levels, with_limited
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.sample_noise import rest_noise
@@ -24,8 +25,6 @@ from pyimu.identification.fit.score import compared
 from pyimu.identification.fit.trial import Trial, counted, marked
 from pyimu.model.sensor import Sensor
 from pyimu.recording.quality.resolution import resolution
-
-CEILING = "ceiling"
 
 EQUAL = 1e-9
 """Relative difference below which samples are the same: files round them."""
@@ -55,8 +54,7 @@ LEAST_AT_LEVEL = 5
 
 def has_ceiling(sensor: Sensor) -> bool:
     """Whether the model's output stops at some level."""
-    found = sensor.reading(CEILING)
-    return found is not None and bool(np.any(sensor.values[found[0]][found[1]]))
+    return bool(ceiling_levels(sensor).any())
 
 
 def is_ceiling(sensor: Sensor, effect: str) -> bool:
@@ -67,8 +65,7 @@ def is_ceiling(sensor: Sensor, effect: str) -> bool:
 
 def _levels(sensor: Sensor) -> tuple[np.ndarray, Sensor]:
     """The levels (3,), zero where there is none, and the sensor without them."""
-    effect, parameter = sensor.reading(CEILING)
-    return np.array(sensor.values[effect][parameter]), sensor.without(effect)
+    return ceiling_levels(sensor), sensor.without(sensor.reading(CEILING)[0])
 
 
 def stops_there(fitted: Fit, axis: int) -> bool:
@@ -83,9 +80,9 @@ def stops_there(fitted: Fit, axis: int) -> bool:
         u = reference_input(t, fitted.states[t.name])
         x = np.abs(predict(unlimited, u, t.segments, t.h)[:, axis])
         y, chance = np.abs(t.y[:, axis]), 4 * rest_noise(t)[axis]
-        least, most = 0.95 * level - chance, 1.02 * level + chance
+        least, most = 0.95 * level - chance, OVER * level + chance
         for a, b in t.row_segments:
-            outside = x[a:b] > 1.02 * level
+            outside = x[a:b] > OVER * level
             beyond += int(outside.sum())
             over += int((outside & (y[a:b] > most)).sum())
             under += int((outside & (y[a:b] < least)).sum())
@@ -235,6 +232,7 @@ def without_lost(fitted: Fit) -> Fit:
         reach = np.abs(x) + _reach(t, np.clip(x, *_either_way(levels)))
         lost = ((levels > 0) & (reach > levels)).any(axis=1)
         fewer = replace(t, left_out=lost if t.left_out is None else lost | t.left_out)
+        fewer = with_limited(fitted.sensor, fewer)
         trials.append(fewer if fewer.count >= LEAST_LEFT else t)
     return fit(replace(fitted, trials=tuple(trials)).with_noise())
 

@@ -15,10 +15,16 @@ import numpy as np
 from pyimu.identification.fit.errors_in_variables import equations, has_noise
 from pyimu.identification.fit.fit import Fit, begin, with_prior
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
+from pyimu.identification.fit.limited import with_limited
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.outweighed import without_outweighed
 from pyimu.identification.fit.reduction import STRUCTURE
-from pyimu.identification.fit.reference_noise import drawn_again, undrawn, with_reference_noise
+from pyimu.identification.fit.reference_noise import (
+    drawn_again,
+    drawn_anew,
+    undrawn,
+    with_reference_noise,
+)
 from pyimu.identification.fit.scatter import wander_of, with_wander
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.walk import with_unknown_walk
@@ -165,6 +171,7 @@ def investigate(
         return Investigation(before, before, (), (), none, none, tuple(apart), unfit)
     if has_ceiling(sensor):
         before = without_lost(before)
+        apart = [with_limited(sensor, t) for t in apart]
     search = _Search(before, sensor, apart, believed, lines)
     while len(search.steps) < MOST_EFFECTS:
         known, count = len(search.steps), len(search.seen.candidates)
@@ -224,6 +231,11 @@ class _Search:
         self.line: Refined | None = None
         self.lag_tried = False
         self.after, self.steps = _as_sampled(before, held)
+        if self.steps and any(t.limited is not None for t in self.after.trials):
+            # What was left at the limit is no noise of the reference.
+            self.held = [with_limited(self.after.sensor, t) for t in held]
+            self.after, self.held = drawn_anew(self.after, self.held, believed)
+            self.after = fit(self.after)
         self.refused: dict[str, Refused] = {}
         self.kept_out: set[Coefficient] = set()
         self.left_out = self._left_out()
@@ -344,6 +356,8 @@ class _Search:
         )
         self.steps.append(step)
         clipped = is_ceiling(chosen.fit.sensor, name)
+        if clipped:
+            self.held = [with_limited(chosen.fit.sensor, t) for t in self.held]
         self._goes_on(without_lost(chosen.fit) if clipped else chosen.fit)
 
     def _goes_on(self, after: Fit) -> None:

@@ -1,0 +1,69 @@
+"""Samples at the level where an output stops, in rows that a band makes of many.
+
+A sample there says nothing but that the input was beyond. The model says so too, but of a reference
+with noise not of the same samples: where the input is about to reach the level the mean of what
+stops is below what the mean makes, and a band spreads that over the rows about it, as a lag or a
+bend of the scale factor would have it. Which samples lie there the samples themselves tell, and
+these count for nothing: what is measured and what is modelled of them are taken for the same.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.ndimage import maximum_filter1d
+
+from pyimu.identification.fit.sample_noise import rest_noise
+from pyimu.identification.fit.trial import Trial, marked
+from pyimu.model.sensor import Sensor
+
+CEILING = "ceiling"
+
+CHANCE = 4.0
+"""Standard deviations of its noise within which a sample is at a level by chance."""
+
+OVER, LEAST_OVER = 1.02, 5
+"""Multiple of a level from which on samples are beyond it, and how many show that it is none."""
+
+ABOUT = 2
+"""Samples on either side of one at a level that may be there but for their noise: leaving out those
+alone that are would keep one half of it."""
+
+
+def ceiling_levels(sensor: Sensor) -> np.ndarray:
+    """The levels (3,) at which the output of a sensor stops, zero where it does not."""
+    found = sensor.reading(CEILING)
+    return np.zeros(3) if found is None else np.array(sensor.values[found[0]][found[1]])
+
+
+def with_limited(sensor: Sensor, trial: Trial) -> Trial:
+    """A trial with the samples marked that lie at the levels of a sensor, and those beside them,
+    where its band would spread them; as it is where samples lie beyond the levels, which are none
+    of theirs then.
+    """
+    levels = ceiling_levels(sensor)
+    if trial.band_hz is None or not levels.any():
+        return trial
+    noise, y = CHANCE * np.nan_to_num(rest_noise(trial)), np.abs(trial.y)
+    over = (y > OVER * levels + noise) & (levels > 0.0)
+    over &= marked(trial.segments, len(y))[:, None]
+    if trial.healed is not None:
+        over &= trial.healed == 0.0
+    if (over.sum(axis=0) >= LEAST_OVER).any():
+        return trial
+    at = (y > levels - noise) & (levels > 0.0)
+    for a, b in trial.segments:
+        at[a:b] = maximum_filter1d(at[a:b], 2 * ABOUT + 1, axis=0, mode="nearest")
+    return replace(trial, limited=at)
+
+
+def without_limit(sensor: Sensor, trial: Trial) -> tuple[Sensor, np.ndarray | None]:
+    """A sensor as those samples show it that do not lie where its output stops, and what each
+    (n, 3) counts for, None where all do and the sensor is as it was.
+    """
+    levels = ceiling_levels(sensor)
+    if trial.limited is None or not levels.any():
+        return sensor, None
+    weights = np.where(trial.limited & (levels > 0.0), 0.0, 1.0)
+    return sensor.without(sensor.reading(CEILING)[0]), weights
