@@ -81,6 +81,14 @@ def test_a_gyro_that_stops_nowhere_shows_no_level():
     assert ceiling_of(inv.before, [held]) is None and inv.after.trials[0].limited is None
 
 
+def test_a_side_that_stops_before_the_other_is_marked_too():
+    """As of a gyro of which a bias was taken after it had clipped: -421 and 415 deg/s."""
+    made, levels, at = clipped()
+    made.y[:] -= 0.015 * levels
+    sensor = Sensor("gyro", {"saturation": {"limit": 1.015 * levels}})
+    assert with_limited(sensor, made).limited[at].all()
+
+
 def test_a_declared_level_that_samples_exceed_hides_none_of_them():
     made, levels, _ = clipped()
     wrong = Sensor("gyro", {"saturation": {"limit": 0.5 * levels}})

@@ -17,6 +17,7 @@ from scipy.ndimage import maximum_filter1d
 from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.trial import Trial, marked
 from pyimu.model.sensor import Sensor
+from pyimu.recording.quality.clipping import clipping_level
 
 CEILING = "ceiling"
 
@@ -25,6 +26,9 @@ CHANCE = 4.0
 
 OVER, LEAST_OVER = 1.02, 5
 """Multiple of a level from which on samples are beyond it, and how many show that it is none."""
+
+NEARLY = 0.8
+"""Share of a level from which on samples that pile up are at it on their side."""
 
 ABOUT = 2
 """Samples on either side of one at a level that may be there but for their noise: leaving out those
@@ -52,10 +56,20 @@ def with_limited(sensor: Sensor, trial: Trial) -> Trial:
         over &= trial.healed == 0.0
     if (over.sum(axis=0) >= LEAST_OVER).any():
         return trial
-    at = (y > levels - noise) & (levels > 0.0)
+    low, high = _sides(trial.y, levels)
+    at = ((trial.y > high - noise) | (trial.y < noise - low)) & (levels > 0.0)
     for a, b in trial.segments:
         at[a:b] = maximum_filter1d(at[a:b], 2 * ABOUT + 1, axis=0, mode="nearest")
     return replace(trial, limited=at)
+
+
+def _sides(y: np.ndarray, levels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Sizes (3,) of the least and of the largest output: of ``levels``, or smaller where samples
+    pile up on one side before that, as a bias after the clipping has them.
+    """
+    found = [[abs(v or 0.0) for v in clipping_level(column)] for column in y.T]
+    low, high = np.array(found).T
+    return tuple(np.where(v > NEARLY * levels, np.minimum(v, levels), levels) for v in (low, high))
 
 
 def without_limit(sensor: Sensor, trial: Trial) -> tuple[Sensor, np.ndarray | None]:
