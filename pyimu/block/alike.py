@@ -40,6 +40,17 @@ VECTOR = {
 EITHER_WAY = frozenset((ca.OP_ADD, ca.OP_MUL))
 """Operations whose operands may be exchanged."""
 
+MORE = {
+    **dict.fromkeys((ca.OP_LT, ca.OP_LE, ca.OP_EQ, ca.OP_NOT, ca.OP_IF_ELSE_ZERO), (2.0, 2.0)),
+    **dict.fromkeys((ca.OP_FMIN, ca.OP_FMAX), (2.0, 3.0)),
+    ca.OP_COPYSIGN: (3.0, 3.0),
+    ca.OP_SQRT: (1.0, 2.0),
+}
+"""Instructions of a processor for an operation on a number and on a vector, where not one each."""
+
+READ = 0.35
+"""What a number that is read from memory adds to them: most operations take one along."""
+
 DEPTH = 3
 """Of operands by which two operations are compared."""
 
@@ -61,6 +72,18 @@ class Alike:
         for operands in self.operands:
             found.append(1 + max((found[k] for k in operands), default=-1))
         return found
+
+    @cached_property
+    def inner(self) -> list[list[int]]:
+        """The operands of each operation that are operations themselves."""
+        return [[k for k in operands if not self.is_leaf(k)] for operands in self.operands]
+
+    @cached_property
+    def cost(self) -> list[float]:
+        """What each operation costs on a number."""
+        read = (sum(self.read[k] is not None for k in operands) for operands in self.operands)
+        more = (MORE.get(op, (1.0, 1.0))[0] for op in self.op)
+        return [m + READ * r for m, r in zip(more, read, strict=True)]
 
     @cached_property
     def results(self) -> dict[int, dict[int, int]]:

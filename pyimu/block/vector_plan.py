@@ -6,18 +6,10 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from pyimu.block.alike import MOST, Alike, Lanes
+from pyimu.block.alike import MORE, MOST, Alike, Lanes
 
 Choice = dict[int, tuple[Lanes, int]]
 """By number of an instruction the vector that has its value, and in which lane."""
-
-MORE = {
-    **dict.fromkeys((ca.OP_LT, ca.OP_LE, ca.OP_EQ, ca.OP_NOT, ca.OP_IF_ELSE_ZERO), (2.0, 2.0)),
-    **dict.fromkeys((ca.OP_FMIN, ca.OP_FMAX), (2.0, 3.0)),
-    ca.OP_COPYSIGN: (3.0, 3.0),
-    ca.OP_SQRT: (1.0, 2.0),
-}
-"""Instructions of a processor for an operation on a number and on a vector, where not one each."""
 
 Value = int | Lanes
 """A number, by its instruction, or a vector."""
@@ -27,9 +19,6 @@ STORED = {1: 1.0, 3: 2.3, 4: 1.0}
 
 EXTRACTED = (0.0, 1.0, 1.3, 1.6)
 """The same that take a number out of a lane."""
-
-READ = 0.35
-"""What a number that is read from memory adds to them: most operations take one along."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +51,7 @@ class Units:
         if isinstance(value, int):
             if value in self.choice:
                 return [self.choice[value][0]]
-            return [k for k in self.alike.operands[value] if not self.alike.is_leaf(k)]
+            return self.alike.inner[value]
         if self._is_computed(value):
             return [*self.alike.aligned(value)]
         return self._sources(value)
@@ -71,8 +60,7 @@ class Units:
         """The cost of a value as a number."""
         if k in self.choice:
             return EXTRACTED[self.choice[k][1]]
-        read = sum(self.alike.read[j] is not None for j in self.alike.operands[k])
-        return MORE.get(self.alike.op[k], (1.0, 1.0))[0] + READ * read
+        return self.alike.cost[k]
 
     def _is_computed(self, lanes: Lanes) -> bool:
         return self.choice.get(lanes[0], (None, 0))[0] == lanes
@@ -162,20 +150,22 @@ class Plan:
 
     def _make(self, wanted: Value) -> None:
         """Append what a value needs, and then itself, as far as it is not there yet."""
-        stack = [(wanted, iter((wanted,)))]
+        begun, stack = self._begun, [(wanted, iter((wanted,)))]
         while stack:
             value, needs = stack[-1]
-            following = next((v for v in needs if not self._begun.get(v)), None)
-            if following is None:
+            for following in needs:
+                done = begun.get(following)
+                if done is None:
+                    begun[following] = False
+                    stack.append((following, iter(self.made_by.needs(following))))
+                    break
+                if not done:
+                    raise Cycle
+            else:
                 stack.pop()
                 if stack:
-                    self._begun[value] = True
+                    begun[value] = True
                     self._finish(value)
-            elif following in self._begun:
-                raise Cycle
-            else:
-                self._begun[following] = False
-                stack.append((following, iter(self.made_by.needs(following))))
 
     def _finish(self, value: Value) -> None:
         """Append a value whose needs are there."""
