@@ -112,7 +112,7 @@ class State:
             self.quasi,
             GravitySize(self.quasi.magnitude, ca.SX(0), ca.SX(0)),
             MeanForce(zero, ca.SX(0), self.seen),
-            Motion.start({"accel_std": ca.SX(0), "motion_time": ca.SX(0)}),
+            Motion.start(ca.SX(0), ca.SX(0)),
             Stillness.start(),
             safe=ca.SX.zeros(6),
             later=ca.SX.zeros(6),

@@ -171,7 +171,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         QuasiStatic(at["gravity"], ca.fmax(passing_std(at), LEAST_ACCEL_STD) ** 2),
         GravitySize(at["gravity"], ca.SX(0), ca.SX(0)),
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
-        Motion.start(at),
+        Motion.start(first_std(at), at["motion_time"]),
         Stillness.start(),
         safe=ca.SX.zeros(6),
         later=ca.SX.zeros(6),

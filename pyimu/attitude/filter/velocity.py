@@ -121,10 +121,12 @@ class Motion:
     long: LongPush
 
     @classmethod
-    def start(cls, at: Mapping[str, ca.SX]) -> Motion:
-        """That before the first sample, by the settings ``at``."""
-        first = first_std(at) ** 2
-        slowly = SlowMotion.start(first, at["motion_time"])
+    def start(cls, std, time) -> Motion:
+        """That before the first sample: a velocity of the standard deviation ``std`` m/s and the
+        correlation ``time`` s.
+        """
+        first = std**2
+        slowly = SlowMotion.start(first, time)
         return cls(first, first, ca.SX.zeros(2), ca.SX(0), ca.SX(0), slowly, LongPush.start())
 
     def pack(self) -> tuple:
