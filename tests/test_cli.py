@@ -176,7 +176,7 @@ BAD_LOGS = {
     ),
     "time is missing": (with_cell(8, 1, ""), ["row 8", "time is missing"]),
     "a row too long": (
-        lambda lines: [*lines[:5], lines[5] + ",1", *lines[6:]],
+        lambda lines: [line + ",1" * (i % 20 == 5) for i, line in enumerate(lines)],
         ["row 6", "8 cells, expected 7"],
     ),
     "too short": (lambda lines: lines[:30], ["too short", "29 rows, at least 64"]),

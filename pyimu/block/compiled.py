@@ -54,6 +54,10 @@ FLAGS = (
 """The step is static, because a libc has a function ``step`` of its own that would answer in place
 of ours."""
 
+BESIDE_VECTORS = ("-fno-tree-slp-vectorize",)
+"""A compiler that makes vectors of its own beside those that are written out gives other bits: gcc
+12.2 did, of a whole filter."""
+
 OWN = "-march=native"
 """Compiles for this very processor. What it has beside the least of its kind does the same
 arithmetic in fewer instructions, and the bits are the same."""
@@ -233,7 +237,14 @@ def _key(source: str, compiler: tuple[str, ...]) -> str:
     hand_written = [(source_folder() / name).read_bytes() for name in HAND_WRITTEN]
     writers = [Path(__file__).with_name(name).read_bytes() for name in VECTOR_WRITERS]
     # A home may be shared with machines of other processors.
-    texts = [source, *FLAGS, sys.platform, platform.machine(), _processor(compiler)]
+    texts = [
+        source,
+        *FLAGS,
+        *BESIDE_VECTORS,
+        sys.platform,
+        platform.machine(),
+        _processor(compiler),
+    ]
     return key_of(compiler, *(t.encode() for t in texts), *hand_written, *writers)
 
 
@@ -255,7 +266,15 @@ def _compile(functions: list[ca.Function], compiler: list[str], key: str) -> cty
         path.write_text(source, encoding="utf-8")
         files = [str(path), str(hand_written / "noise.c"), "-I", str(hand_written)]
         if subprocess.run(
-            [*compiler, *flags(compiler), *files, "-o", str(library), "-lm"],
+            [
+                *compiler,
+                *flags(compiler),
+                *BESIDE_VECTORS * wide,
+                *files,
+                "-o",
+                str(library),
+                "-lm",
+            ],
             capture_output=True,
             check=False,
         ).returncode:

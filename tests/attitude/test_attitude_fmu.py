@@ -16,6 +16,7 @@ from places import same_path
 from test_attitude_faults import log
 
 from pyimu.attitude import attitude_ukf, run
+from pyimu.block import compiled as native
 from pyimu.errors import UserError
 from pyimu.fmu import FORMS, simulate, simulate_blocks
 from pyimu.recording.recording import Recording
@@ -38,6 +39,24 @@ def rows(recording: Recording) -> np.ndarray:
         heading_valid=told,
         stationary=recording.stationary,
     )
+
+
+@pytest.mark.skipif(not native.compiler_command(), reason="no compiler here")
+def test_compiled_run_gives_the_bits_of_the_virtual_machine(monkeypatch, tmp_path):
+    """Of so few rows none is compiled before that is said to pay."""
+    monkeypatch.setenv("PYIMU_CACHE", str(tmp_path))
+    monkeypatch.setattr(native, "_loaded", {})
+    native._machine_code.cache_clear()
+    recording = eventful_recording()
+    slow = run(recording, part(), latitude=0.8)
+    assert not native._loaded
+    monkeypatch.setattr(native, "WORTHWHILE", 0)
+    native._machine_code.cache_clear()
+    quick = run(recording, part(), latitude=0.8)
+    assert native._loaded
+    for name in ("q", "gyro_bias", "std", "quasi_static", "nis", "status", "heading_std"):
+        np.testing.assert_array_equal(getattr(quick, name), getattr(slow, name))
+    native._machine_code.cache_clear()
 
 
 @pytest.mark.parametrize("form", FORMS)

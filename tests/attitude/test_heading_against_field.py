@@ -50,7 +50,7 @@ def test_those_that_agree_are_left_alone():
 
 def test_it_is_said_with_the_declination_that_would_explain_it():
     result = attitude.run(log(2, np.radians(15.0))[0])
-    assert "a declination of -14.6 deg" in result.report()
+    assert "a declination of -14.5 deg" in result.report()
     told = attitude.run(log(2, np.radians(15.0))[0], settings={"declination": np.radians(-15.0)})
     assert "against the magnetometer" not in told.report()
     off = attitude.run(log(2, np.radians(15.0))[0], settings={"declination": np.radians(15.0)})

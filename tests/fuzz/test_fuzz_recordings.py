@@ -7,6 +7,7 @@ import pytest
 from places import program
 
 from pyimu.errors import UserError
+from pyimu.recording.apple import with_whole_force
 from pyimu.recording.formats.oxts import oxts_in
 from pyimu.recording.formats.suffix import READERS, open_reader
 from pyimu.recording.known import FORMATS, recognised
@@ -41,7 +42,7 @@ def test_there_is_a_log_of_every_reader_and_every_known_layout(seeds):
     assert {READERS[suffix] for suffix in suffixes} == set(READERS.values())
     folders = [s for s in map(oxts_in, filter(Path.is_dir, seeds)) if s is not None]
     found = [open_reader(path) for path in (*paths, *folders)]
-    known = {known[0] for known in map(recognised, found) if known is not None}
+    known = {known[0] for r in map(with_whole_force, found) if (known := recognised(r))}
     assert {name for name, _ in FORMATS} <= known
 
 

@@ -141,7 +141,7 @@ def test_what_a_filter_over_positions_may_leave_is_no_effect():
     late = CubicSpline(wand.time, wand.accel)(wand.time - 1e-4)
     found = pyimu.close(wand.log(smoother(wand.place), accel=late))
     assert (found.verdict, found.added) == ("not_confirmed", ())
-    (reason,) = {r.reason for r in found.refused if r.effect == "time_delay"}
+    (reason,) = {r.reason for _, r in found.refused if r.effect == "time_delay"}
     assert reason.startswith("explains less than 1% of what the filter over the positions does")
 
 

@@ -133,7 +133,7 @@ def states(layout, x, error):
     q = ca.DM(x)[: layout.nominal]
     none = ca.DM(0, 1)
     symbol = State(
-        q[:4], q[4:7], q[7:10], q[10:13], q[13:16], none, none, none, q[16:], ca.DM(15, 15)
+        q[:4], q[4:7], q[7:10], q[10:13], q[13:16], none, none, none, none, q[16:], ca.DM(15, 15)
     )
     moved = updates.changed(layout, symbol, ca.SX(ca.DM(error)))
     values = list(vars(moved).values())[:5]
