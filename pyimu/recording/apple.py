@@ -17,7 +17,7 @@ from pyimu.recording.columns import XYZ
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.whole_force import FORCE, WholeForceReader
-from pyimu.recording.guess.names import TRUTHS, Name, named, surest, triads
+from pyimu.recording.guess.names import TRUTHS, named, surest, triads, vectors
 from pyimu.recording.guess.numbers import time_unit
 from pyimu.recording.vectors import triad_map, unnamed
 from pyimu.units import parse
@@ -57,21 +57,14 @@ def _parts(reader: Reader) -> tuple[Three, Three] | None:
     if best is not None and "user" not in best.names[0].words:
         return None
     names = [named(cell) for cell in reader.header]
-    fields = [_vectors(names, {"gravity"}), _vectors(names, {"user"})]
+    fields = [
+        vectors({k: name for k, name in enumerate(names) if part in name.words})
+        for part in ("gravity", "user")
+    ]
     if any(len(found) != 1 for found in fields):
         return None
     units = {names[k].unit for field in fields for k in field[0]}
     return (fields[0][0], fields[1][0]) if units <= {None, "g", "G"} else None
-
-
-def _vectors(names: Sequence[Name], words: set[str]) -> list[Three]:
-    """Positions of the vectors whose names have the ``words``."""
-    stems: dict[tuple[str, ...], dict[str, int]] = {}
-    for k, name in enumerate(names):
-        if words <= set(name.words) and name.axis:
-            stems.setdefault(name.words, {}).setdefault(name.axis, k)
-    whole = [axes for axes in stems.values() if set(axes) == set(XYZ)]
-    return [(axes["x"], axes["y"], axes["z"]) for axes in whole]
 
 
 def core_motion(reader: Reader) -> ForeignMap | None:

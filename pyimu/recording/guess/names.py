@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from pyimu.recording.guess.endings import GLUED, fits, in_brackets, in_words
@@ -235,10 +235,18 @@ def _with_rolls(names: Sequence[Name]) -> list[Name]:
 
 def others(header: Sequence[str], taken: Iterable[int]) -> list[tuple[int, int, int]]:
     """Positions of the vectors in a header that no word tells of, those of ``taken`` left out."""
-    away = set(taken)
+    away, known = set(taken), DERIVED | TRUTHS | ELSE
+    names = enumerate(_with_rolls([named(cell) for cell in header]))
+    return vectors({k: n for k, n in names if k not in away and not set(n.words) & known})
+
+
+def vectors(names: Mapping[int, Name]) -> list[tuple[int, int, int]]:
+    """Positions of the vectors among names by their positions: x, y and z of one name, and no other
+    axis.
+    """
     stems: dict[tuple[str, ...], dict[str, int]] = {}
-    for position, name in enumerate(_with_rolls([named(cell) for cell in header])):
-        if name.axis and position not in away and not set(name.words) & (DERIVED | TRUTHS | ELSE):
+    for position, name in names.items():
+        if name.axis:
             stems.setdefault(name.words, {}).setdefault(name.axis, position)
     whole = [axes for axes in stems.values() if set(axes) == set("xyz")]
     return [(axes["x"], axes["y"], axes["z"]) for axes in whole]
@@ -345,4 +353,5 @@ def spots(header: Sequence[str]) -> dict[str, int]:
     whole = [axes for axes in stems.values() if len(axes) == 3]
     if len(whole) != 1:
         return {}
-    return dict(zip(("ref_east", "ref_north", "ref_up"), map(whole[0].get, "xyz"), strict=True))  # type: ignore[arg-type]
+    axes = {"ref_east": "x", "ref_north": "y", "ref_up": "z"}
+    return {target: whole[0][axis] for target, axis in axes.items()}
