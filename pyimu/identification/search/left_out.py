@@ -3,16 +3,18 @@ others may still be, in the errors of those that are in.
 
 Of a row of a matrix the elements that explain enough go in, one by one. What the motion hardly
 tells from them goes with it to those that are there: their values are off by it, and their standard
-errors say nothing of it. Each element that was left out is therefore taken to be in with the
-probability that the rows give it, of the size that is typical of it (a spike and a slab: Mitchell
-and Beauchamp 1988, "Bayesian variable selection in linear regression", JASA 83; averaged as in
-Hoeting et al. 1999, "Bayesian model averaging", Statistical Science 14).
+errors say nothing of it; of those that went in on little, some are noise. Every choice of the
+elements of an axis is therefore taken to be the true one with the probability that the rows give
+it, its elements of the size of those that were found (a spike and a slab: Mitchell and Beauchamp
+1988, "Bayesian variable selection in linear regression", JASA 83; averaged as in Hoeting et al.
+1999, "Bayesian model averaging", Statistical Science 14).
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Iterable
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 from scipy.special import logsumexp
@@ -21,15 +23,14 @@ from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key, coefficients_of
 from pyimu.identification.fit.mixture import standard_error
+from pyimu.identification.fit.normal import Normal
 from pyimu.identification.search.projected import Projected, dispersion
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effects import EFFECTS
-from pyimu.model.typical import CLASSES, magnitudes
 
-ODDS = 1.0
-"""That an element is there, to that it is not, before any row is seen: of an effect that is there
-some are and some are not."""
+HARDLY = 1e-3
+"""Share of a standard error within which an element that is not there is zero."""
 
 
 @dataclass(frozen=True)
@@ -75,22 +76,34 @@ class LeftOut:
 
 
 def with_left_out(fit: Fit, effects: Iterable[str]) -> Fit:
-    """The fit, the standard errors of ``effects`` such that intervals hold although some of their
-    elements were left out; of the user's own nobody knows how large they are.
+    """The fit, the standard errors of ``effects`` such that intervals hold although their elements
+    were chosen by the same rows; of the user's own nobody knows what they are made of.
     """
-    beside = LeftOut.of(fit, [e for e in effects if CATALOGUE[e] in EFFECTS])
-    if beside is None:
+    wanted = [e for e in effects if CATALOGUE[e] in EFFECTS]
+    chosen = {e: _estimated(fit, e) for e in wanted}
+    out = {e: _left_out(fit, e) for e in wanted}
+    if not wanted:
         return fit
-    std, projected = dict(fit.std), beside.projected
-    for effect in {k.effect for k in beside.keys}:
-        at = [n for n, k in enumerate(beside.keys) if k.effect == effect]
-        size = magnitudes(effect, fit.sensor.kind)[CLASSES[-1]].si
-        for key in _estimated(fit, effect):
-            place = projected.normal.position.get(key)
-            turn = np.zeros(0) if place is None else projected.turn[place, at]
-            if np.any(turn) and 0.0 < std.get(key, 0.0) < np.inf:
-                std[key] = _averaged(std[key], turn, projected, at, size)
+    normal = with_prior(equations(fit, lambda f: f.linearise(out)), fit)
+    std = dict(fit.std)
+    for effect in wanted:
+        for axis in {k.index[:1] for k in chosen[effect]}:
+            own, beside = (
+                sorted(k for k in some if k.index[:1] == axis and k in normal.position)
+                for some in (chosen[effect], out[effect])
+            )
+            if own:
+                std |= _averaged(fit, normal, own, beside, _size(fit, chosen[effect]))
     return replace(fit, std=std)
+
+
+def _size(fit: Fit, keys: Iterable[Coefficient]) -> float:
+    """What an element of an effect is like, from those that were found."""
+    return float(np.sqrt(np.mean([_value(fit, k) ** 2 for k in keys])))
+
+
+def _value(fit: Fit, key: Coefficient) -> float:
+    return float(fit.sensor.values[key.effect][key.parameter][key.index])
 
 
 def _estimated(fit: Fit, effect: str) -> list[Coefficient]:
@@ -108,19 +121,54 @@ def _left_out(fit: Fit, effect: str) -> set[Coefficient]:
 
 
 def _averaged(
-    std: float, turn: np.ndarray, projected: Projected, at: list[int], size: float
-) -> float:
-    """The standard error of an element, each of those left out that are ``at`` projected columns
-    moving it by ``turn`` (k,) times its own value.
+    fit: Fit, normal: Normal, own: list[Coefficient], beside: list[Coefficient], size: float
+) -> dict[Key, float]:
+    """The standard errors of the elements ``own`` of an axis, those ``beside`` them left out, where
+    any of both is there or not.
     """
-    seen = (turn != 0.0) & (np.diag(projected.variance)[at] > 0.0)
-    turn, at = turn[seen], np.array(at)[seen]
-    gram, score = np.diag(projected.gram)[at], projected.score[at]
-    variance, value = np.diag(projected.variance)[at] / gram**2, score / gram
-    both = variance + size**2
-    log_odds = 0.5 * (np.log(variance / both) + value**2 * size**2 / variance / both)
-    mean, left = value * size**2 / both, variance * size**2 / both
-    log_weights = np.append(0.0, np.log(ODDS) + log_odds)
-    means = np.append(0.0, turn * mean)
-    deviations = np.sqrt(std**2 + np.append(0.0, turn**2 * left))
-    return standard_error(np.exp(log_weights - logsumexp(log_weights)), means, deviations)
+    base = [
+        i
+        for i, k in enumerate(normal.keys)
+        if (k in fit.free or not isinstance(k, Coefficient)) and k not in own
+    ]
+    projected = Projected.of(normal, base, [normal.position[k] for k in (*own, *beside)])
+    gram, n = projected.gram, len(own)
+    if not np.all(np.diag(gram)[:n] > 0.0):
+        return {}
+    value = np.array([_value(fit, k) for k in own])
+    alone = np.diag(np.linalg.pinv(gram[:n, :n]))
+    score = projected.score + gram[:, :n] @ value
+    wider: dict[Key, float] = {}
+    for at, key in enumerate(own):
+        std = fit.std.get(key, 0.0)
+        if 0.0 < std < np.inf and alone[at] > 0.0:
+            scatter = std**2 / alone[at]
+            weights, means, deviations = _choices(gram / scatter, score / scatter, size, at)
+            near = np.maximum(deviations, HARDLY * std)
+            wider[key] = max(std, standard_error(weights, means - value[at], near))
+    return wider
+
+
+def _choices(
+    gram: np.ndarray, score: np.ndarray, size: float, at: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of each choice of the elements (k,) of an axis, its probability, and mean and standard
+    deviation of the element ``at`` in it; ``score`` is what the rows say of them from zero on.
+    """
+    places = range(len(score))
+    found = []
+    for count in range(len(score) + 1):
+        for choice in combinations(places, count):
+            chosen = np.array(choice, dtype=int)
+            inside = gram[np.ix_(chosen, chosen)]
+            inverse = np.linalg.inv(inside + np.eye(count) / size**2)
+            mean = inverse @ score[chosen]
+            occam = np.linalg.slogdet(np.eye(count) + size**2 * inside)[1]
+            weight = 0.5 * float(score[chosen] @ mean) - 0.5 * float(occam)
+            if at in choice:
+                here = choice.index(at)
+                found.append((weight, mean[here], np.sqrt(inverse[here, here])))
+            else:
+                found.append((weight, 0.0, 0.0))
+    log_weights, means, deviations = np.array(found).T
+    return np.exp(log_weights - logsumexp(log_weights)), means, deviations
