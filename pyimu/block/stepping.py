@@ -5,6 +5,8 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
+from pyimu.block.compiled import compiled
+
 FEW = 256
 """Rows for which casadi's virtual machine is good enough: the faster one takes as long to load."""
 
@@ -42,3 +44,21 @@ def step_through(
         evaluate()
         s[:] = following
         y[k] = row_y
+
+
+def step_often(
+    step: ca.Function,
+    s: np.ndarray,
+    u: np.ndarray,
+    p: np.ndarray,
+    w: np.ndarray,
+    h: np.ndarray,
+    y: np.ndarray,
+) -> None:
+    """What ``step_through`` does, bit for bit, for a step that one process takes through many logs,
+    or again and again: compiled, once that pays and where it can be done.
+    """
+    native = compiled(step, len(u)) if len(u) > FEW else None
+    if native is None:
+        return step_through(step, s, u, p, w, h, y)
+    native(s, u, p, h, y, w, None, 0, 0)

@@ -19,7 +19,7 @@ from pyimu.block import cache as store
 from pyimu.block import compiled as native
 from pyimu.block.block import CHUNK, Block, Run
 from pyimu.block.normals import normals
-from pyimu.block.stepping import step_through
+from pyimu.block.stepping import FEW, step_often, step_through
 from pyimu.block.variables import NoiseChannel, Variable
 from pyimu.errors import UserError
 from pyimu.held import FORGOTTEN, PREFIX, work_folder
@@ -415,3 +415,22 @@ def test_cache_folder_is_the_platforms(monkeypatch, platform, environment, want)
         monkeypatch.setenv(name, value)
     monkeypatch.setattr(sys, "platform", platform)
     assert str(store.cache_folder()) == want
+
+
+def test_a_step_taken_often_is_compiled_and_gives_the_bits_of_the_virtual_machine(compilations):
+    s, u, p, none, h = (
+        ca.SX.sym(n, k) for n, k in (("s", 1), ("u", 1), ("p", 1), ("w", 0), ("h", 1))
+    )
+    after = ca.fmax(u - p, ca.fmin(u + p, s))  # the play of a hysteresis
+    step = ca.Function("memory", [s, u, p, none, h], [after, s])
+    x = np.cumsum(np.random.default_rng(1).standard_normal((4 * FEW, 1)), axis=0)
+    found, want = np.empty((2, len(x), 1))
+    ends = [np.zeros(1), np.zeros(1)]
+    given = np.ones(1), np.zeros((len(x), 0)), np.full(1, 0.01)
+    step_often(step, ends[0], x, *given, found)
+    for k in range(0, len(x), FEW):
+        rows = slice(k, k + FEW)
+        step_through(step, ends[1], x[rows], given[0], given[1][rows], given[2], want[rows])
+    np.testing.assert_array_equal(found, want)
+    assert ends[0] == ends[1]
+    assert len(compilations) == 1

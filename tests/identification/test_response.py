@@ -9,8 +9,10 @@ from catalogue_cases import CASES, H, everything, excited, motion, own, run
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from pyimu.block.program import program
 from pyimu.block.vectorised import BLOCK, over_rows, split_over_rows
 from pyimu.identification.fit.response import (
+    _memory,
     after_dynamics,
     before_dynamics,
     dynamics,
@@ -274,3 +276,14 @@ def test_over_rows_refuses_what_it_does_not_know():
 @pytest.mark.parametrize(("name", "kind"), CASES)
 def test_only_rounding_is_a_staircase(name, kind):
     assert is_step(CATALOGUE[name], kind) == (name in STAIRCASES)
+
+
+def test_a_memory_is_one_step_in_all_chains_that_have_it():
+    """So that it is compiled once, whatever else the model has."""
+    alone = Sensor("gyro", {"thermal_hysteresis": {}})
+    beside = alone.with_values("scale_factor").with_values("thermal_bias")
+    (step, read, of), (other, also_read, also_of) = (_memory(one.chain) for one in (alone, beside))
+    assert read == also_read and len(of) == len(also_of) == 1
+    assert [beside.slots[k].parameter for k in also_of] == ["width"]
+    texts = [program(one).instructions for one in (step, other)]
+    assert texts[0] == texts[1]

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.signal import freqz, oaconvolve
 
 from pyimu.block.program import program
-from pyimu.block.stepping import step_through
+from pyimu.block.stepping import step_often, step_through
 from pyimu.block.vectorised import over_rows, split_over_rows
 from pyimu.model.chain import Chain, chain_of
 from pyimu.model.effect import Effect
@@ -67,14 +67,14 @@ def with_memory(
     chain = rest.chain
     if not has_memory(chain):
         return inputs
-    function, read = _memory(chain)
+    function, read, of = _memory(chain)
     u, first = np.empty((len(inputs[0]), len(read))), 0
     for k, at in enumerate(read):
         u[:, k] = inputs[at]
     if earlier is not None:
         u, first = np.concatenate([earlier[:, read], u]), len(earlier)
     memory, none = np.empty((len(u), len(chain.start))), np.zeros((len(u), 0))
-    step_through(function, chain.start.copy(), u, rest.p, none, np.array([h]), memory)
+    step_often(function, chain.start.copy(), u, rest.p[of], none, np.array([h]), memory)
     return [*inputs, *memory[first:].T]
 
 
@@ -84,18 +84,19 @@ def has_memory(chain: Chain) -> bool:
 
 
 @lru_cache(maxsize=32)
-def _memory(chain: Chain) -> tuple[ca.Function, list[int]]:
+def _memory(chain: Chain) -> tuple[ca.Function, list[int], list[int]]:
     """The step of a chain's memory alone, whose output is the memory before it, and the numbers of
-    the inputs that it takes: few of them all.
+    the inputs and of the coefficients that it takes: few of them all, and so the same step in many
+    chains, which is compiled once.
     """
     s, w = ca.SX.sym("s", len(chain.start)), np.zeros(len(chain.noise))
     after = ca.densify(chain.step(s, chain.u, chain.p, w, chain.h)[0])
 
-    def stepped(u: ca.SX) -> ca.Function:
-        return ca.Function("memory", [s, u, chain.p, ca.SX.sym("w", 0), chain.h], [after, s])
+    def stepped(u: ca.SX, p: ca.SX) -> ca.Function:
+        return ca.Function("memory", [s, u, p, ca.SX.sym("w", 0), chain.h], [after, s])
 
-    read = program(stepped(chain.u)).entries(1)
-    return stepped(chain.u[read]), read
+    read, of = (program(stepped(chain.u, chain.p)).entries(k) for k in (1, 2))
+    return stepped(chain.u[read], chain.p[of]), read, of
 
 
 def before_dynamics(sensor: Sensor) -> Sensor:
