@@ -4,9 +4,11 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from scipy.fft import next_fast_len
 from scipy.signal.windows import hann
 
-from pyimu.identification.fit.incoherent import TOGETHER, _inverse, _means
+from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.incoherent import TOGETHER, _frames, _inverse, _means
 
 LENGTH, INTERVAL = 64, 0.01
 BEYOND, SENSORS, KNOWN = 2, 3, 5
@@ -38,6 +40,17 @@ def test_means_are_those_over_all_frames_at_once():
     np.testing.assert_allclose(found.whole, np.mean(np.abs(whole) ** 2, axis=0).T, **same)
     np.testing.assert_allclose(found.left, left.transpose(2, 1, 0), **same)
     np.testing.assert_allclose(found.own, known[:, :SENSORS].transpose(2, 1, 0), **same)
+
+
+def test_frames_have_no_large_prime_in_their_length():
+    """Of 2 x 4093 rows a transform takes several times longer than of a few less."""
+    count, rows = 30, 30 * 2 * 4093
+    one = Linear(np.arange(rows), [(0, rows)], np.zeros((rows, 3)), {}, {})
+    length, starts = _frames(one, np.zeros(rows, dtype=bool), count)
+    assert 0.95 * 2 * 4093 < length <= 2 * 4093
+    assert next_fast_len(length // 2) == length // 2
+    assert np.unique(np.diff(starts)).tolist() == [length // 2]
+    assert len(starts) >= 2 * count - 1
 
 
 def test_transforms_of_all_signals_are_never_held_at_once():

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement
 
 import numpy as np
-from scipy.fft import rfft
+from scipy.fft import next_fast_len, rfft
 from scipy.signal import freqz
 from scipy.signal.windows import hann
 from scipy.stats import chi2
@@ -204,8 +204,12 @@ def _known(trial: Trial) -> tuple[list[np.ndarray], np.ndarray]:
 def _frames(one: Linear, bad: np.ndarray, count: int) -> tuple[int, list[int]]:
     """Length and starts of frames, half of each in the next, as many as ``count`` if there are no
     gaps; none holds a ``bad`` row.
+
+    A length of small factors, some hundredths less at most: one with a large prime among them
+    takes five times longer to transform.
     """
-    length = 2 * (sum(b - a for a, b in one.segments) // count // 2)
+    half = sum(b - a for a, b in one.segments) // count // 2
+    length = next((2 * n for n in range(half, 0, -1) if next_fast_len(n) == n), 0)
     every = (s for a, b in one.segments for s in range(a, b - length + 1, max(1, length // 2)))
     return length, [s for s in every if not bad[s : s + length].any()]
 
