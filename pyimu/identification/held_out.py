@@ -17,7 +17,14 @@ from pyimu.identification.fit.left_out import as_measured, left_out
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.noise_floor import floor_noise, reference_variance
 from pyimu.identification.fit.scatter import typical_wander, wander_of
-from pyimu.identification.fit.score import WINDOW, ErrorSums, floor, held_state, tally
+from pyimu.identification.fit.score import (
+    WINDOW,
+    ErrorSums,
+    UnitFloor,
+    held_state,
+    tally,
+    unit_floor,
+)
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found import AtRest, Errors, LogEntry
@@ -76,16 +83,19 @@ def _errors(
         return Errors(unit, *both, None)
     white = {i: RandomWalk(n.r, 0.0) for i, n in noise.items()}
     walk = {i: RandomWalk(0.0, k2) for i, k2 in _walk(inv, noise).items()}
-    drift = floor(walk, inv.after, trial) if any(n.k2 for n in walk.values()) else None
+    floor = unit_floor(inv.after, trial)
+    drift = floor.of(walk) if any(n.k2 for n in walk.values()) else None
     # Two logs may have two references, or one that sees them from other distances.
     reference = reference_variance(inv.after, trial.name)
-    least = floor(white, inv.after, trial).with_variance(reference)
+    least = floor.of(white).with_variance(reference)
     open_ = None if unsure is None else left_open(inv.after, trial, unsure)
-    slow = _slow(inv, trial, reference)
+    slow = _slow(inv, trial, floor, reference)
     return Errors(unit, *both, least, drift or ErrorSums(), unsure=open_, slow=slow)
 
 
-def _slow(inv: Investigation, trial: Trial, reference: np.ndarray) -> ErrorSums | None:
+def _slow(
+    inv: Investigation, trial: Trial, floor: UnitFloor, reference: np.ndarray
+) -> ErrorSums | None:
     """What the largest random walk that a sensor may have leaves, and in the integral over a window
     what ``reference`` (3,), the variance that the reference adds to a row, makes of it if it is
     white: of a derived rate it is less. None where no part's walk is known.
@@ -96,7 +106,7 @@ def _slow(inv: Investigation, trial: Trial, reference: np.ndarray) -> ErrorSums 
         return None
     _, declared = declared_variances(sensor, trial.h)
     walk = {i: RandomWalk(0.0, max(float(declared[i]), largest)) for i in trial.axes}
-    made, step = floor(walk, inv.after, trial), trial.h * trial.band.stride
+    made, step = floor.of(walk), trial.h * trial.band.stride
     white = made.windows * reference * WINDOW * step
     return replace(made, angle_squares=made.angle_squares + white)
 

@@ -14,10 +14,10 @@ from pyimu.identification.fit.score import (
     FLOOR_DRAWS,
     WINDOW,
     ErrorSums,
-    floor,
     held_state,
     sums,
     tally,
+    unit_floor,
 )
 from pyimu.identification.fit.trial import HEAD, Trial
 from pyimu.identification.fit.whiten import RandomWalk
@@ -69,7 +69,7 @@ def test_floor_is_what_the_covariance_of_the_noise_gives(halves, r, k2):
     covariance = r * np.eye(len(time)) + k2 * np.minimum.outer(time - time[0], time - time[0])
     held = np.eye(len(time))[len(first.time) + rows(second)]
     held -= np.eye(len(time))[rows(first)].mean(axis=0)
-    found = floor({i: RandomWalk(r, k2) for i in range(3)}, fit, second)
+    found = unit_floor(fit, second).of({i: RandomWalk(r, k2) for i in range(3)})
     expected, std = spread_of_mean_square(held, covariance, 3 * FLOOR_DRAWS)
     assert abs(found.total**2 - expected) < norm.ppf(1 - ALARM / 2) * std
     length = round(WINDOW / H)
@@ -82,12 +82,25 @@ def test_floor_of_white_noise_is_the_textbook_one(halves):
     """A mean of n rows taken off white noise of variance r leaves r (1 + 1/n)."""
     fit, first, second = halves
     count, n = 3 * FLOOR_DRAWS * len(rows(second)), len(rows(first))
-    found = floor({i: RandomWalk(R, 0.0) for i in range(3)}, fit, second).total ** 2 / (
+    found = unit_floor(fit, second).of({i: RandomWalk(R, 0.0) for i in range(3)}).total ** 2 / (
         R * (1 + 1 / n)
     )
     assert abs(found - 1) < norm.ppf(1 - ALARM / 2) * np.sqrt(
         2 / count + 2 / (3 * FLOOR_DRAWS * n**2)
     )
+
+
+def test_floor_of_each_axis_is_that_of_its_own_noise(halves):
+    """Of variances, of white noise and walk apart: the same draws serve noise of any size."""
+    fit, _, second = halves
+    floor = unit_floor(fit, second)
+    both = floor.of({0: RandomWalk(R, 0.0), 1: RandomWalk(0.0, K2), 2: RandomWalk(4 * R, 9 * K2)})
+    white, walk = (floor.of(dict.fromkeys(range(3), RandomWalk(*n))) for n in ((R, 0), (0, K2)))
+    for name in ("squares", "angle_squares"):
+        parts = [getattr(one, name) for one in (white, walk)]
+        expected = [parts[0][0], parts[1][1], 4 * parts[0][2] + 9 * parts[1][2]]
+        np.testing.assert_allclose(getattr(both, name), expected, rtol=1e-12)
+    np.testing.assert_array_equal(both.rows, white.rows)
 
 
 def test_true_model_reaches_the_floor(halves):
@@ -96,7 +109,7 @@ def test_true_model_reaches_the_floor(halves):
     for seed in range(20):
         one, two = log(seed=seed).split(0.4)
         scores.append(tally(model_of(one), two).total ** 2)
-    expected = floor(fit.noise, fit, second).total ** 2
+    expected = unit_floor(fit, second).of(fit.noise).total ** 2
     assert abs(np.mean(scores) - expected) < 4.5 * np.std(scores, ddof=1) * np.sqrt(
         1 / 20 + 1 / FLOOR_DRAWS
     )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
@@ -125,16 +127,15 @@ def windows(values: np.ndarray, segments: list[tuple[int, int]]) -> np.ndarray:
     return np.concatenate(parts) if parts else np.zeros((0, WINDOW))
 
 
-def simulated(
-    noise: dict[int, RandomWalk], time: np.ndarray, rng: np.random.Generator
-) -> np.ndarray:
-    """White noise and random walk (n, 3) at the sample rate."""
-    out = np.zeros((len(time), 3))
+def unit_noise(
+    axes: Iterable[int], time: np.ndarray, rng: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    """White noise of unit variance and a random walk that grows by one a second, (n, 3) each, at
+    the sample rate; zero on other axes than ``axes``.
+    """
+    white, walk = np.zeros((len(time), 3)), np.zeros((len(time), 3))
     steps = np.sqrt(np.maximum(np.diff(time, prepend=time[:1]), 0.0))
-    for i, n in noise.items():
-        # Both are drawn though one may be none: each has its place in the generator's sequence.
-        white, walk = rng.standard_normal(len(time)), rng.standard_normal(len(time))
-        out[:, i] = np.sqrt(n.r) * white
-        if n.k2:
-            out[:, i] += np.cumsum(np.sqrt(n.k2) * steps * walk)
-    return out
+    for i in axes:
+        white[:, i] = rng.standard_normal(len(time))
+        walk[:, i] = np.cumsum(steps * rng.standard_normal(len(time)))
+    return white, walk

@@ -7,7 +7,7 @@ on that log's fitted rows.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -18,7 +18,7 @@ from pyimu.identification.fit.columns import band_segments, in_band, in_log, lin
 from pyimu.identification.fit.fit import Fit, bare, initial_state
 from pyimu.identification.fit.inputs import LogState, before, reference_input
 from pyimu.identification.fit.keys import Key, LogClock, LogLag, LogPlace, LogTurn
-from pyimu.identification.fit.noise_floor import simulated
+from pyimu.identification.fit.noise_floor import unit_noise
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.trial import Trial, marked
@@ -229,17 +229,38 @@ def sums(trial: Trial, r: np.ndarray) -> ErrorSums:
     return ErrorSums(squares, rows, angle, windows)
 
 
-def floor(noise: dict[int, RandomWalk], fit: Fit, trial: Trial, seed: int = 1) -> ErrorSums:
-    """What the noise model alone leaves of the same number, by simulation through the same band and
-    bias estimate.
+@dataclass(frozen=True)
+class UnitFloor:
+    """What noise alone leaves of a trial's rows: ``white`` of unit variance, and a random ``walk``
+    that grows by one a second. Noise of any size leaves as many times its variance.
+    """
+
+    white: ErrorSums
+    walk: ErrorSums
+
+    def of(self, noise: Mapping[int, RandomWalk]) -> ErrorSums:
+        """What a ``noise`` by axis leaves, its two parts being independent."""
+        r, k2 = np.zeros(3), np.zeros(3)
+        for i, n in noise.items():
+            r[i], k2[i] = n.r, n.k2
+        return replace(
+            self.white,
+            squares=r * self.white.squares + k2 * self.walk.squares,
+            angle_squares=r * self.white.angle_squares + k2 * self.walk.angle_squares,
+        )
+
+
+def unit_floor(fit: Fit, trial: Trial, seed: int = 1) -> UnitFloor:
+    """What the noise of a fitted model's axes leaves of a held-out trial, by simulation through the
+    same band and bias estimate.
     """
     rng = np.random.default_rng(seed)
     parent = next((t for t in fit.trials if t.name == trial.parent), None)
     head, rest = (parent, trial) if parent is not None else trial.head()
-    total = ErrorSums()
+    time, total = np.concatenate([head.time, rest.time]), [ErrorSums(), ErrorSums()]
     for _ in range(FLOOR_DRAWS):
-        draw = simulated(noise, np.concatenate([head.time, rest.time]), rng)
-        first, last = draw[: len(head.time)], draw[len(head.time) :]
-        bias = in_band(head, first).mean(axis=0) if head.count else np.zeros(3)
-        total = total + sums(rest, in_band(rest, last - bias))
-    return total
+        for k, draw in enumerate(unit_noise(fit.noise, time, rng)):
+            first, last = draw[: len(head.time)], draw[len(head.time) :]
+            bias = in_band(head, first).mean(axis=0) if head.count else np.zeros(3)
+            total[k] = total[k] + sums(rest, in_band(rest, last - bias))
+    return UnitFloor(*total)
