@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.identification.fit import errors_in_variables, maximum_likelihood
-from pyimu.identification.fit.columns import Linear, in_band, linearise
+from pyimu.identification.fit.columns import Linear, in_band, linearise, residual
 from pyimu.identification.fit.fit import begin, power
 from pyimu.identification.fit.incoherent import Spectrum, in_rows, of_reference
 from pyimu.identification.fit.inputs import LogState
@@ -232,6 +232,23 @@ def offset(errors: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.long
+def test_columns_of_a_turn_are_the_differences_of_the_residual_turned_a_little():
+    """Behind a gain and dynamics, in a state that is turned already."""
+    time, step = H * np.arange(600), 1e-6
+    u = inputs(np.random.default_rng(4), time)
+    sensor = gyro(TRUE_S, TRUE_M).with_values("first_order_lag", wn=np.full(3, 20.0))
+    one = trial(time, u[:, :3], u, free_rotation=True)
+    state = LogState(rotation=Rotation.from_rotvec([0.3, -0.2, 0.5]).as_matrix())
+    linear = linearise(sensor, one, state, ())
+    for k in range(3):
+        key = LogTurn(one.name, k)
+        ends = (residual(sensor, one, state.moved(key, sign * step)) for sign in (1, -1))
+        up, down = (in_band(one, r) for r in ends)
+        expected = (down - up) / (2 * step)
+        found = [linear.columns[i].arrays[linear.keys[i].index(key)] for i in range(3)]
+        np.testing.assert_allclose(np.column_stack(found), expected, atol=1e-8)
+
+
 def test_noise_of_an_attitude_reference_does_not_pull_the_scale_factor_down(monkeypatch):
     corrected = scale_factors()
     monkeypatch.setattr(maximum_likelihood, "has_noise", lambda fitted: False)

@@ -170,12 +170,13 @@ def through_dynamics(
     if not chain.effects:
         return x
     response = impulse_response(chain, h)
-    out = np.array(x)
-    for a, b in segments:
-        origin = x[a]
-        # Dynamics pass a constant as it is; a response that was cut off before it had died away
-        # must not change the level.
-        out[a:b] = _convolved(x[a:b] - origin, response[: b - a]) + origin
+    out = np.array(x, order="F")
+    for column, taps in zip(out.T, response.T, strict=True):
+        for a, b in segments:
+            origin = column[a]
+            # Dynamics pass a constant as it is; a response that was cut off before it had died
+            # away must not change the level.
+            column[a:b] = _convolved(column[a:b] - origin, taps[: b - a]) + origin
     return out
 
 
@@ -191,13 +192,10 @@ def power_through_dynamics(sensor: Sensor, frequency: np.ndarray, h: float) -> n
     return np.abs(np.column_stack(gains)) ** 2
 
 
-def _convolved(x: np.ndarray, response: np.ndarray) -> np.ndarray:
-    """The answer (n, 3) to ``x`` (n, 3) from its first row on."""
-    n = len(x)
-    if len(response) > FEW_TAPS:
-        return oaconvolve(x, response, axes=0)[:n]
-    pairs = zip(x.T, response.T, strict=True)
-    return np.column_stack([np.convolve(one, taps)[:n] for one, taps in pairs])
+def _convolved(x: np.ndarray, taps: np.ndarray) -> np.ndarray:
+    """The answer (n,) to ``x`` (n,) from its first row on."""
+    convolved = oaconvolve if len(taps) > FEW_TAPS else np.convolve
+    return convolved(x, taps)[: len(x)]
 
 
 def behind_dynamics(
