@@ -18,7 +18,7 @@ from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
 from pyimu.recording.formats.oxts import CLOCK, TIME, is_oxts
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.names import DERIVED, TRUTHS, named, others, surest, triads
-from pyimu.recording.messages import imu_message
+from pyimu.recording.messages import imu_message, pose_message
 from pyimu.recording.programs import PROGRAMS
 from pyimu.recording.vectors import triad_map, unnamed
 from pyimu.recording.xsens import xsens
@@ -246,6 +246,7 @@ FORMATS = (
     ("BROAD, by its description", _broad),
     ("Xsens, by its manuals", xsens),
     ("ROS's sensor_msgs/Imu, by the message's definition", imu_message),
+    ("ROS's message of a pose, by its definition", pose_message),
     ("SensorLog, by its header", sensor_log),
     ("Core Motion, by its documentation", core_motion),
     ("Sensor Logger, by its documentation", _phone),

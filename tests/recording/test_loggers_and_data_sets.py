@@ -48,6 +48,21 @@ def test_ros2_topic_echo_csv(frame, tmp_path):
     assert "sensor_msgs/Imu" in recognised(found) and found.ref_q is None
 
 
+@pytest.mark.parametrize("named", [False, True])
+def test_a_ros_message_with_a_pose_is_a_reference(named, tmp_path):
+    """By its own stamp, not by the time at which it was logged."""
+    path = log_lines.posed(tmp_path, LOG, named)
+    found = read_reference(path)
+    x, y, z, w = log_lines.POSED
+    np.testing.assert_array_equal(found.ref_q, np.tile([w, x, y, z], (300, 1)))
+    np.testing.assert_array_equal(found.ref_east, np.full(300, 1.0))
+    np.testing.assert_allclose(found.ref_up, 0.01 * np.arange(300))
+    (origin,) = [f.detail["origin"] for f in found.findings if f.kind == "time_origin"]
+    assert origin == raw_logs.FIRST / 1e9
+    whole = inspect(path)
+    assert whole.kind == "known" and "pose" in whole.format
+
+
 def test_openlog_artemis(tmp_path):
     found = read_recording(log_lines.open_log(tmp_path, LOG))
     agrees(found, 4e-15)

@@ -106,6 +106,23 @@ def echoed(folder, log, frame="imu_link"):
     )
 
 
+POSED = np.array([0.5, -0.5, 0.1, 0.7])
+"""x, y, z, w of length one."""
+
+
+def posed(folder, log, named=False):
+    """``ros2 topic echo --csv`` of a PoseStamped message; ``named`` as programs write tables of
+    bags, with the time at which it was logged in front.
+    """
+    rows = []
+    for k, t in enumerate((FIRST + log[0]).tolist()):
+        cells = [t // 10**9, t % 10**9, "map", 1.0, 2.0, 0.01 * k, *POSED.tolist()]
+        rows.append(",".join(map(str, [t / 1e9, *cells] if named else cells)))
+    fields = [f"pose.position.{a}" for a in "xyz"] + [f"pose.orientation.{a}" for a in "xyzw"]
+    head = ["Time", "header.stamp.sec", "header.stamp.nanosec", "header.frame_id", *fields]
+    return lines_of(folder / "pose.csv", [",".join(head)] * named + rows)
+
+
 def open_log(folder, log):
     """OpenLog Artemis: date and time of day in hundredths, mg, deg/s, uT."""
     time, gyro, accel = log
@@ -142,7 +159,7 @@ def ronin(folder, log):
     return folder / "data.hdf5"
 
 
-ALONE = (gnss_logger, gyroflow, echoed, open_log, bag_text, ronin)
+ALONE = (gnss_logger, gyroflow, echoed, posed, open_log, bag_text, ronin)
 """Layouts that are read as they are."""
 
 MAPPED = (serial, vectornav)

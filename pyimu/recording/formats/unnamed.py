@@ -17,6 +17,13 @@ MESSAGE = (
 """The fields of ROS 2's sensor_msgs/Imu in the order of its definition, in which ``ros2 topic echo
 --csv`` prints them."""
 
+POSE = (
+    *MESSAGE[:3],
+    *(f"pose.position.{a}" for a in "xyz"),
+    *(f"pose.orientation.{a}" for a in "xyzw"),
+)
+"""Those of geometry_msgs/PoseStamped."""
+
 TRAJECTORY = ("timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw")
 """A line of TUM's format, whose numbers stand between blanks."""
 
@@ -26,15 +33,18 @@ LENGTH = 0.02
 
 def names_of(rows: Sequence[Sequence[str]], separator: str) -> tuple[str, ...]:
     """The names of the columns of ``rows``, empty where these are not known."""
-    if rows and all(map(_is_message, rows)):
+    if rows and all(_is_message(row, MESSAGE) for row in rows):
         return MESSAGE
+    if rows and all(_is_message(row, POSE) and _is_turn(row[6:]) for row in rows):
+        return POSE
     if rows and separator == " " and all(map(_is_pose, rows)) and _rises(rows):
         return TRAJECTORY
     return ()
 
 
-def _is_message(row: Sequence[str]) -> bool:
-    if len(row) != len(MESSAGE) or _number(row[2]) is not None:
+def _is_message(row: Sequence[str], names: Sequence[str]) -> bool:
+    """Whether a row begins as a message with a header does, and has as many numbers behind it."""
+    if len(row) != len(names) or _number(row[2]) is not None:
         return False
     second, part, *numbers = (_number(cell) for k, cell in enumerate(row) if k != 2)
     whole = row[0].strip().isdigit() and row[1].strip().isdigit()
@@ -43,9 +53,13 @@ def _is_message(row: Sequence[str]) -> bool:
 
 def _is_pose(row: Sequence[str]) -> bool:
     numbers = [_number(cell) for cell in row]
-    if len(row) != len(TRAJECTORY) or None in numbers:
-        return False
-    return abs(hypot(*(n for n in numbers[4:] if n is not None)) - 1) < LENGTH
+    return len(row) == len(TRAJECTORY) and None not in numbers and _is_turn(row[4:])
+
+
+def _is_turn(cells: Sequence[str]) -> bool:
+    """Whether four cells are those of a quaternion: of length one."""
+    numbers = [_number(cell) for cell in cells]
+    return abs(hypot(*(n for n in numbers if n is not None)) - 1) < LENGTH
 
 
 def _rises(rows: Sequence[Sequence[str]]) -> bool:
