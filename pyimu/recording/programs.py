@@ -148,11 +148,23 @@ def ronin(reader: Reader) -> ForeignMap | None:
     return ForeignMap(columns=columns) if needed <= cells else None
 
 
+def nuscenes(reader: Reader) -> ForeignMap | None:
+    """``ms_imu`` of nuScenes' CAN bus (README of the devkit's can_bus): us since 1970, rad/s and
+    m/s^2; ``q`` is an estimate.
+    """
+    rate, force = ([f"{n}[{k}]" for k in range(3)] for n in ("rotation_rate", "linear_accel"))
+    if not {"utime", *rate, *force} <= set(reader.header):
+        return None
+    columns = {"utime": "time [us]"} | triad_map(rate, "gyro", "rad/s")
+    return ForeignMap(columns=columns | triad_map(force, "accel", "m/s^2"))
+
+
 PROGRAMS: tuple[tuple[str, Callable[[Reader], ForeignMap | None]], ...] = (
     ("Gyroflow's log, by its description", gyroflow),
     ("GnssLogger, by its description", gnss_logger),
     ("OpenLog Artemis, by its firmware", open_log),
     ("imu.txt of a bag, by its names", bag_text),
     ("RoNIN, by its description", ronin),
+    ("nuScenes' CAN bus, by its description", nuscenes),
 )
 """What each is called, and its map."""

@@ -1,5 +1,7 @@
 """Loggers and data sets whose tables are known by what describes them, and tables without names."""
 
+import json
+
 import log_lines
 import numpy as np
 import pytest
@@ -81,6 +83,50 @@ def test_ronin_takes_the_phone_s_own_raw_arrays(tmp_path):
     found = read_recording(log_lines.ronin(tmp_path, LOG))
     agrees(found)
     assert found.ref_q is None and "RoNIN" in recognised(found)
+
+
+def test_nuscenes_in_json(tmp_path):
+    found = read_recording(log_lines.nuscenes(tmp_path, LOG))
+    agrees(found)
+    assert found.ref_q is None and "nuScenes" in recognised(found)
+
+
+def test_samples_in_json_with_objects_in_them(tmp_path):
+    """A list by itself or within an object; a member that is missing is a missing value."""
+    rows = [
+        {"t": 0.01 * k, "gyro": dict(zip("xyz", w)), "note": "x", "accel": a, "ok": True}
+        for k, (w, a) in enumerate(zip(GYRO.tolist(), ACCEL.tolist(), strict=True))
+    ]
+    names = {f"gyro.{a}": f"gyro_{a} [rad/s]" for a in "xyz"}
+    names |= {f"accel[{k}]": f"accel_{a} [m/s^2]" for k, a in enumerate("xyz")}
+    lines = [f'"{cell}" = "{name}"' for cell, name in ({"t": "time [s]"} | names).items()]
+    (tmp_path / "map.toml").write_text("\n".join(["[columns]", *lines]))
+    del rows[7]["accel"]
+    for data in (rows, {"device": "a", "samples": rows}):
+        (tmp_path / "log.json").write_text(json.dumps(data))
+        found = read_recording(tmp_path / "log.json", tmp_path / "map.toml")
+        np.testing.assert_array_equal(found.gyro, GYRO)
+        assert np.isnan(found.accel[7]).all()
+        np.testing.assert_array_equal(np.delete(found.accel, 7, 0), np.delete(ACCEL, 7, 0))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[]",
+        "{}",
+        "[1, 2]",
+        '{"a": [{}], "b": [{}]}',
+        "[{",
+        '"a"',
+        "[{}]",
+        '[{"a": 1%s}]' % (400 * "0"),
+    ],
+)
+def test_what_is_no_list_of_samples_is_refused(text, tmp_path):
+    (tmp_path / "log.json").write_text(text)
+    with pytest.raises(UserError, match="no list of samples|cannot be read as JSON \\("):
+        read_recording(tmp_path / "log.json")
 
 
 def test_a_trajectory_of_tum_without_names(tmp_path):

@@ -2,6 +2,8 @@
 before each number, or a word that tells what a row holds.
 """
 
+import json
+
 import numpy as np
 import raw_logs
 from raw_logs import AXES, FIRST, MAP, text
@@ -159,7 +161,19 @@ def ronin(folder, log):
     return folder / "data.hdf5"
 
 
-ALONE = (gnss_logger, gyroflow, echoed, posed, open_log, bag_text, ronin)
+def nuscenes(folder, log):
+    """A scene's ``ms_imu`` of the CAN bus, in JSON."""
+    rows = [
+        {"linear_accel": a, "q": [1.0, 0.0, 0.0, 0.0], "rotation_rate": w, "utime": t}
+        for t, w, a in zip(
+            ((FIRST + log[0]) // 1000).tolist(), log[1].tolist(), log[2].tolist(), strict=True
+        )
+    ]
+    (folder / "scene-0001_ms_imu.json").write_text(json.dumps(rows))
+    return folder / "scene-0001_ms_imu.json"
+
+
+ALONE = (gnss_logger, gyroflow, echoed, posed, open_log, bag_text, ronin, nuscenes)
 """Layouts that are read as they are."""
 
 MAPPED = (serial, vectornav)

@@ -51,6 +51,12 @@ UNCLOSED = "a quotation mark is not closed, so that the cells behind it are one"
 FAR = 100_000
 """Lines among which a log of several kinds has each: satellites are logged from the start."""
 
+NO_TOPICS = (
+    "{}: has no topics, only ROS bags, ULog, dataflash and GnssLogger files do; leave [topics] out "
+    "of the column map"
+)
+"""What is said of a file that holds one table."""
+
 MOST_NAMES = 3
 """Rows of names and units, at most."""
 
@@ -154,12 +160,12 @@ def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
     """
     if topic:
         found = gnss_logger(head, topic)
-        if found is None:
-            raise UserError(
-                f"{path}: has no topic {topic}; leave [topics] out of the column map, or name one "
-                f"of GnssLogger's: {', '.join(GNSS_LOGGER)}"
-            )
-        return found
+        if found is not None:
+            return found
+        there = [word for word in GNSS_LOGGER if gnss_logger(head, word)]
+        if there:
+            raise UserError(f"{path}: has no topic {topic}; there are {', '.join(there)}")
+        raise UserError(NO_TOPICS.format(path))
     there = next((t for t in GNSS_LOGGER[:2] if gnss_logger(head, t) and _holds(path, t)), None)
     if there is not None:
         return gnss_logger(head, there)

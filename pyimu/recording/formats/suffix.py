@@ -18,6 +18,8 @@ from pyimu.files import check_regular, exists, shortened, whole
 from pyimu.recording.formats.bag import BagReader
 from pyimu.recording.formats.dataflash import DataflashReader
 from pyimu.recording.formats.hdf5 import Hdf5Reader
+from pyimu.recording.formats.json_rows import JsonReader
+from pyimu.recording.formats.layout import NO_TOPICS
 from pyimu.recording.formats.mat import MatReader
 from pyimu.recording.formats.oxts import OxtsReader, oxts_in
 from pyimu.recording.formats.parquet import ParquetReader
@@ -38,6 +40,7 @@ READERS: Mapping[str, Any] = MappingProxyType(
         ".bag": BagReader,
         ".db3": BagReader,
         ".mcap": BagReader,
+        ".json": JsonReader,
         ".ulg": UlogReader,
         ".bin": DataflashReader,
         ".log": DataflashReader,
@@ -73,10 +76,7 @@ def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
     if topics and reader is CsvReader and set(topics) == {"imu"}:
         return CsvReader.open(path, topics["imu"])
     if topics:
-        raise UserError(
-            f"{path}: has no topics, only ROS bags, ULog, dataflash and GnssLogger files do; leave "
-            "[topics] out of the column map"
-        )
+        raise UserError(NO_TOPICS.format(path))
     return reader.open(path)
 
 
