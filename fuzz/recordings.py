@@ -18,6 +18,7 @@ from pathlib import Path
 import harness
 import log_files
 import log_folders
+import log_lines
 import raw_logs
 
 from pyimu.errors import UserError
@@ -75,7 +76,7 @@ TEXTS = (".csv", ".txt", ".log", ".toml", ".dat", ".yaml")
 MAPPED = "mapped-"
 """How the names of folders begin that hold a log and its column map."""
 
-FIRST_FILES = ("imu.dat", "ouster_imu.csv", "gyr.csv", "log.mat", "log.h5")
+FIRST_FILES = ("imu.dat", "ouster_imu.csv", "gyr.csv", "serial.txt", "vn.txt", "log.mat", "log.h5")
 """The file in them that is read by it."""
 
 ENDINGS = sorted(READERS)
@@ -87,9 +88,10 @@ def seeds(folder: Path) -> None:
     for kind in ("csv", "csv.gz", "parquet", "mcap", "db3", "bag", "mat", "mat73", "hdf5"):
         _take(folder, kind.replace(".", "_"), lambda place, k=kind: _of_kind(place, k, log))
     _take(folder, "bag_of_ros2", lambda place: _of_kind(place, "folder", log))
-    for make in (*raw_logs.ALONE, *log_folders.FILES, *log_folders.FOLDERS, *log_folders.OTHERS):
+    folders = (*log_folders.FILES, *log_folders.FOLDERS, *log_folders.OTHERS)
+    for make in (*raw_logs.ALONE, *folders, *log_lines.ALONE):
         _take(folder, make.__name__, lambda place, make=make: make(place, still))
-    for make in raw_logs.MAPPED:
+    for make in (*raw_logs.MAPPED, *log_lines.MAPPED):
         make(_mapped(folder, make.__name__), still)
     for kind in ("mat", "mat73", "hdf5"):
         log_files.written(_mapped(folder, kind), kind, log)

@@ -298,6 +298,12 @@ def did_you_mean(name: str, names: Iterable[str], cutoff: float = 0.7) -> str:
     return f", did you mean {near}?" if near else ""
 
 
+def or_known(name: str, names: Iterable[str]) -> str:
+    """The end of an error message as ``did_you_mean``; all ``names`` where nothing is near."""
+    listed = list(names)
+    return did_you_mean(name, listed) or f"; known are {', '.join(listed)}"
+
+
 def _plain(text: str) -> str:
     """``text`` in the letters of the table: ``udeg`` for ``µ°``, ``sqrt(h)`` for ``√h``."""
     for sign, letters in _SIGNS.items():

@@ -60,8 +60,9 @@ def inspect(
     if guessed:
         kind = "guessed"
     proposals = _proposals(readers, maps, foreign)
-    if known is not None and known[1].frame:
-        data = {"frame": known[1].frame}
+    if known is not None:
+        kinds = [_entry(name, own) for name, own in known[1].files]
+        data = {"frame": known[1].frame, **({"file": kinds} if kinds else {})}
     text = text_of(_ordered(proposals), MapGiven(data, given[0].name))
     found = Inspection(given[0], kind, known[0] if known else "", proposals, text)
     say("reading")
@@ -85,6 +86,11 @@ def inspect(
         rests=rests(recording),
         still=is_at_rest(recording),
     )
+
+
+def _entry(name: str, own: ForeignMap) -> dict[str, object]:
+    """What a column map says of a further file, or of further rows of the same one."""
+    return {"name": name, "topic": own.topics["imu"], "columns": dict(own.columns)}
 
 
 def _with_made_columns(

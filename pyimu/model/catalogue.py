@@ -13,7 +13,7 @@ from pyimu.errors import UserError
 from pyimu.model.effect import Effect
 from pyimu.model.effects import EFFECTS
 from pyimu.model.kinds import STAGES
-from pyimu.units import did_you_mean
+from pyimu.units import or_known
 
 
 class Catalogue(Mapping[str, Effect]):
@@ -49,7 +49,7 @@ class Catalogue(Mapping[str, Effect]):
     def of(self, kind: str, name: str) -> Effect:
         """The effect of a sensor of this kind. Raises UserError where it has none of this name."""
         if name not in self._effects:
-            raise UserError(f"unknown effect '{name}'{did_you_mean(name, self._effects)}")
+            raise UserError(f"unknown effect '{name}'{or_known(name, self._effects)}")
         if kind not in self._effects[name].triads:
             raise UserError(f"effect {name} does not belong to a {kind}")
         return self._effects[name]

@@ -234,7 +234,9 @@ class _Reader:
                 'print it) or density = "two-sided"; the two differ by 1.41',
             )
         if scale.density == "one-sided" and "quoted" not in entry:
-            self.notes[key]["quoted"] = f"{format_array(figures)} {scale.unit}, one-sided"
+            one = np.ndim(entry["value"]) == 0
+            said = f"{entry['value']:.12g}" if one else format_array(figures)
+            self.notes[key]["quoted"] = f"{said} {scale.unit}, one-sided"
         values = scale.to_si(figures)
         fault = q.fault(values)
         if fault:

@@ -179,14 +179,18 @@ def _files(path: Path, entries: Any, whole: ForeignMap) -> tuple[tuple[str, Fore
         raise UserError(f"{path}: key file must be such as {example}")
     found = []
     for entry in entries:
-        _known_keys(path, "file.", entry, ("name", "columns", "scale", "sample_rate"))
+        _known_keys(path, "file.", entry, ("name", "topic", "columns", "scale", "sample_rate"))
         name = entry.get("name")
         if not isinstance(name, str) or not name:
             raise UserError(f"{path}: key file.name is missing, write {example}")
         columns = _texts(path, "columns", entry, "accel_x [m/s^2]")
         scale = read_scales(path, entry.get("scale", {}))
         rate = _rate(path, entry.get("sample_rate"))
-        own = replace(whole, columns=columns, scale=scale, rate=rate, offset=0.0, topics={})
+        topic = entry.get("topic", "")
+        if not isinstance(topic, str):
+            raise UserError(f'{path}: key file.topic must be text such as "UncalAccel"')
+        topics = {"imu": topic} if topic else {}
+        own = replace(whole, columns=columns, scale=scale, rate=rate, offset=0.0, topics=topics)
         found.append((name, own))
     return tuple(found)
 

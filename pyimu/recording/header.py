@@ -218,9 +218,11 @@ class Header:
                 "ref_force, or a column map (TOML) that names them"
             )
         if self._wanted == "sensor" and "gyro_x" not in self.names and "accel_x" not in self.names:
+            truth = any(name.startswith("ref_") for name in self.names)
+            beside = "; the reference in it goes beside a sensor's log, as --reference"
             raise UserError(
                 f"{self.path}: neither gyro_x, gyro_y, gyro_z nor accel_x, accel_y, accel_z is "
-                f"there{self._way()}",
+                f"there{beside if truth else ''}{self._way()}",
                 self._inspected(),
             )
 

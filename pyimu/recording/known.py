@@ -15,13 +15,13 @@ from pyimu.errors import Finding
 from pyimu.recording.apple import core_motion, sensor_log
 from pyimu.recording.column_map import BODY, ForeignMap
 from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
-from pyimu.recording.counts import Scale
 from pyimu.recording.formats.oxts import CLOCK, TIME, is_oxts
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.names import DERIVED, TRUTHS, named, others, surest, triads
-from pyimu.recording.messages import imu_message
+from pyimu.recording.messages import imu_message, pose_message
+from pyimu.recording.programs import PROGRAMS
 from pyimu.recording.vectors import triad_map, unnamed
-from pyimu.units import parse
+from pyimu.recording.xsens import xsens
 
 STATED = "a table that states its units"
 """What a log is called whose header says all of it."""
@@ -168,29 +168,6 @@ def _broad(reader: Reader) -> ForeignMap | None:
     return ForeignMap(columns={cell: name for cell, name in columns.items() if cell in cells})
 
 
-def _xsens(reader: Reader) -> ForeignMap | None:
-    """Xsens: MT Manager's text export and Movella DOT's.
-
-    MT Manager's user manual: ``Acc_X`` m/s^2, ``Gyr_X`` rad/s, the magnetometer in no unit;
-    ``SampleTimeFine`` counts 0.1 ms there, in DOT's files 1 us (Xsens DOT user manual, 4.2.5),
-    whose rates are in deg/s. Without it, or where it holds no numbers as in the files of wireless
-    trackers, the rate that the comments state gives the times.
-    """
-    cells = set(reader.header)
-    if not {"Acc_X", "Gyr_X"} <= cells or "PacketCounter" not in cells:
-        return None
-    dot = "Quat_W" in cells or "dq_W" in cells or "Euler_X" in cells
-    columns = triad_map([f"Gyr_{a}" for a in "XYZ"], "gyro", "deg/s" if dot else "rad/s")
-    columns |= triad_map([f"Acc_{a}" for a in "XYZ"], "accel", "m/s^2")
-    scale = {}
-    if "SampleTimeFine" in cells and reader.header.index("SampleTimeFine") in reader.numeric():
-        columns["SampleTimeFine"] = "time [count]"
-        scale = {"time": Scale(1e-6 if dot else 1e-4, parse("s"))}
-    elif reader.rate is None:
-        return None
-    return ForeignMap(columns=columns, scale=scale) if set(columns) <= cells else None
-
-
 def _phone(reader: Reader) -> ForeignMap | None:
     """One file of Sensor Logger: time in ns since 1970, rad/s, m/s^2, uT (its UNITS.md).
 
@@ -267,14 +244,16 @@ FORMATS = (
     ("TUM VI's imu.txt, by its definition", _tum_text),
     ("RepoIMU, by its description", _repoimu),
     ("BROAD, by its description", _broad),
-    ("Xsens, by its manuals", _xsens),
+    ("Xsens, by its manuals", xsens),
     ("ROS's sensor_msgs/Imu, by the message's definition", imu_message),
+    ("ROS's message of a pose, by its definition", pose_message),
     ("SensorLog, by its header", sensor_log),
     ("Core Motion, by its documentation", core_motion),
     ("Sensor Logger, by its documentation", _phone),
     ("NCLT's inertial unit, by its description", _nclt_imu),
     ("NCLT's ground truth, by its description", _nclt_truth),
     ("KITTI's oxts, by its description", _oxts),
+    *PROGRAMS,
 )
 
 TRUTHS_OF = (("KITTI's oxts, by its description", _oxts_truth),)

@@ -96,7 +96,7 @@ class Source:
         if not foreign.columns:
             known = recognised(reader, wanted)
             if known is not None:
-                foreign = merged(known[1], foreign, foreign.files)
+                foreign = merged(known[1], foreign, (*known[1].files, *foreign.files))
                 findings, is_known = tuple(said(known, reader.header)), True
         if foreign.body is None and reader.body is not None:
             foreign = replace(foreign, body=BODY[reader.body])
@@ -145,7 +145,7 @@ def _companions(path: Path, foreign: ForeignMap, header: Header) -> tuple[Source
     """The further files that a map names, beside the log or where their paths say."""
     found = []
     for name, own in foreign.files:
-        source = Source.of(open_reader(path.parent / name), own, "any")
+        source = Source.of(open_reader(path.parent / name, own.topics), own, "any")
         twice = next((g for g in source.header.groups if g in header.groups), None)
         if twice is not None:
             raise UserError(f"{source.header.path}: holds {twice}, which {path} holds too")

@@ -23,8 +23,9 @@ MEANING = {
     "force_in_g": "gravity is 1 and should be 9.8: the numbers are in g, the header says m/s^2",
     "gaps": "rows are missing; nothing is filled in or joined over them",
     "gravity_at_rest": "the positions at rest, and gravity there, by which the force was judged",
-    "gravity_down": "z reads gravity upside down: the body lies so, or its axes are not "
-    'forward-left-up; say [frame] body = "frd" in a column map then',
+    "gravity_down": "z reads gravity upside down: the body lies so; or its axes are not "
+    'forward-left-up ([frame] body = "frd" in a column map); or the accelerometer has the other '
+    'sign, as iOS does (its columns in [count], [scale] accel = {value = -1, unit = "m/s^2"})',
     "gravity_off": "the force at rest is not gravity: a scale factor, a bias, or another unit",
     "gyro_axes": "gravity does not turn as the gyro says: axes in disorder, or of another sign?",
     "gyro_unit": "the rates are too large or too small by the factor of another unit",

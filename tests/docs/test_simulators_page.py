@@ -7,6 +7,8 @@ import pytest
 from places import CHECKOUT
 from simulators import installed
 
+from pyimu import build, simulate
+from pyimu import part as load
 from pyimu.fmu.cosimulate import cosimulate
 from pyimu.rover.system import rover_system, write_rover
 
@@ -49,3 +51,15 @@ def test_the_sample_runs(name, sample, folder, yaw, monkeypatch, capfd):
         assert shown != yaw and abs(shown - yaw) < np.deg2rad(1.0)
     else:
         assert shown == yaw
+
+
+def test_the_loop_of_one_s_own_shows_what_python_does(folder, monkeypatch, capsys):
+    installed("fmpy")
+    (sample,) = re.findall(r"^## A script of one's own\n.*?```python\n(.*?)```", PAGE, re.S | re.M)
+    monkeypatch.chdir(folder)
+    build("imt30", "out/rover", ("sensor",), (2,))
+    exec(compile(sample, "docs/simulators.md, a script", "exec"), {})
+    shown = [float(v) for v in capsys.readouterr().out.strip(" []\n").split(",")]
+    motion = np.tile([0, 0, 0.1, 0, 0, 9.80665], (100, 1))
+    gyro, _ = simulate(load("imt30"), motion[:, :3], motion[:, 3:], seed=1)
+    assert shown == gyro[-1].tolist()

@@ -7,11 +7,12 @@ import pytest
 from places import program
 
 from pyimu.errors import UserError
-from pyimu.recording.apple import with_whole_force
+from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.formats.oxts import oxts_in
 from pyimu.recording.formats.suffix import READERS, open_reader
 from pyimu.recording.known import FORMATS, recognised
 from pyimu.recording.log import read_recording, read_reference
+from pyimu.recording.made import with_made_columns
 
 pytest.importorskip("h5py")
 pytest.importorskip("rosbags")
@@ -42,7 +43,8 @@ def test_there_is_a_log_of_every_reader_and_every_known_layout(seeds):
     assert {READERS[suffix] for suffix in suffixes} == set(READERS.values())
     folders = [s for s in map(oxts_in, filter(Path.is_dir, seeds)) if s is not None]
     found = [open_reader(path) for path in (*paths, *folders)]
-    known = {known[0] for r in map(with_whole_force, found) if (known := recognised(r))}
+    made = [with_made_columns(reader, ForeignMap())[0] for reader in found]
+    known = {known[0] for reader in made if (known := recognised(reader))}
     assert {name for name, _ in FORMATS} <= known
 
 
@@ -63,7 +65,7 @@ def test_every_log_is_read_before_it_is_damaged(fuzzer, seeds):
     """
     for path in seeds:
         if path.suffix != ".toml" and not path.name.startswith(("mat-", "mat73-", "hdf5-")):
-            truth = path.name.startswith("nclt_truth")
+            truth = path.name.startswith(("nclt_truth", "posed"))
             found = (read_reference if truth else read_recording)(*fuzzer._given(path))
             assert len(found) >= fuzzer.ROWS - 1, path.name
 

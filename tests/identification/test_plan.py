@@ -405,6 +405,8 @@ def test_wanted_error_is_reached():
         (("mpu6050", "size_effect", "gyro"), ("does not belong to a gyro",)),
         (("mpu6050", "lag", "gyr"), ("did you mean gyro", "known are gyro, accel")),
         (("mpu6050", ()), ("no effect asked for",)),
+        (("mpu6050", "nothing"), ("unknown effect 'nothing'; known are", "g_sensitivity")),
+        (("mpu6050", "g_sensitivty"), ("did you mean g_sensitivity",)),
         (("mpu6050", "lag", None, "3 deg"), ("--within 3 deg", "lag.wn")),
         (("mpu6050", ("lag", "ageing"), None, "3 Hz"), ("EFFECT=VALUE",)),
         (("mpu6050", "lag", None, (), -1.0), ("sigmas -1",)),

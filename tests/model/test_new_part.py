@@ -7,7 +7,7 @@ import pytest
 
 from pyimu.cli import main
 from pyimu.errors import UserError
-from pyimu.model.part_file import new_part, part, part_names
+from pyimu.model.part_file import new_part, part, part_names, remarks
 from pyimu.model.part_reader import parse_part
 
 
@@ -68,3 +68,7 @@ def test_the_command_writes_it_here(tmp_path, monkeypatch, capsys):
         main()
     assert end.value.code == 0 and "own.toml: take the '#'" in capsys.readouterr().out
     assert part(tmp_path / "own.toml").name == "own"
+
+
+def test_what_the_template_tells_its_reader_is_no_remark_on_the_part(written):
+    assert remarks(written) == ""

@@ -85,8 +85,7 @@ def test_a_one_sided_density_is_divided_by_the_root_of_two_and_kept_as_quoted():
     )
     np.testing.assert_allclose(two.gyro.values["angle_random_walk"]["N"], 0.005 * DEG, rtol=1e-15)
     assert (
-        one.notes["gyro", "angle_random_walk", "N"]["quoted"]
-        == "[0.005, 0.005, 0.005] deg/s/sqrt(Hz), one-sided"
+        one.notes["gyro", "angle_random_walk", "N"]["quoted"] == "0.005 deg/s/sqrt(Hz), one-sided"
     )
 
 

@@ -160,6 +160,44 @@ def test_xsens_a_fine_time_without_numbers(stated, log, tmp_path):
     assert any("PacketCounter counts the rows" in note for note in found.proposals[0].notes)
 
 
+def test_movella_dot_of_its_rates_alone(log, tmp_path):
+    """Its names are MT Manager's then, of which it has neither units nor the time's."""
+    time, gyro, accel, _ = log
+    names = ["PacketCounter", "SampleTimeFine", *(f"{n}_{a}" for n in ("Acc", "Gyr") for a in AXES)]
+    fine = [str(4_000_000_000 + int(round(1e6 * t))) for t in time]
+    columns = [[str(k) for k in range(len(gyro))], fine, *accel.T, *np.degrees(gyro).T]
+    for rate in ([], ["OutputRate:,100Hz"]):
+        head = ["DeviceTag:,foo", *rate, ",".join(names)]
+        agrees(read_recording(table(tmp_path / "dot.csv", head, columns)), log)
+
+
+WITMOTION = {
+    "Time(s)\tax(g)\tay(g)\taz(g)\twx(deg/s)\twy(deg/s)\twz(deg/s)\tAngleX(deg)\tAngleY(deg)"
+    "\tAngleZ(deg)\tT(°)": False,
+    "time\tAccX(g)\tAccY(g)\tAccZ(g)\tAsX(°/s)\tAsY(°/s)\tAsZ(°/s)\tAngleX(°)\tAngleY(°)\tAngleZ(°)"
+    "\tHX(uT)\tHY(uT)\tHZ(uT)": True,
+}
+
+
+@pytest.mark.parametrize("head", WITMOTION)
+def test_witmotion_is_read_as_it_is(head, log, tmp_path):
+    """A letter with its unit is as good as a word, and so is the unit of a rate."""
+    time, gyro, accel, up = log
+    stamps = days(time, lambda s: s.replace("T", " "))
+    rest = [*(45 * up).T] if WITMOTION[head] else [time]
+    columns = [stamps, *(accel / STANDARD_GRAVITY).T, *np.degrees(gyro).T, *up.T, *rest]
+    found = read_recording(table(tmp_path / "data.txt", [head], columns, "\t"))
+    agrees(found, log)
+    if WITMOTION[head]:
+        np.testing.assert_allclose(found.mag, 45e-6 * up, atol=1e-11)
+
+
+def test_a_vector_by_its_unit_is_none_beside_one_by_its_name():
+    header = [f"{n} {a} (deg/s)" for n in ("Wanted", "Gyro") for a in AXES]
+    best, rivals = surest(triads(header), "gyro")
+    assert best.positions == (3, 4, 5) and not rivals
+
+
 def test_columns_of_a_recording_without_unit_in_a_foreign_table(log, tmp_path):
     """A map of the rest reads it, and they are among what was left out."""
     time, gyro, accel, _ = log

@@ -2,6 +2,8 @@
 raise nothing.
 """
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -16,6 +18,7 @@ from pyimu.recording.quality.resolution import quantization_step
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.quality.stuck import FALSE_ALARMS, stuck_runs
 from pyimu.recording.recording import Recording
+from pyimu.report.meaning import MEANING
 
 G = 9.80665
 
@@ -262,6 +265,19 @@ def test_gravity_down_unless_declared():
     assert "accel_z" in found(recording(accel=accel), "gravity_down")
     assert not found(recording(accel=-accel), "gravity_down")
     assert not found(recording(accel=accel, frame_declared=True), "gravity_down")
+
+
+def test_the_other_sign_is_undone_as_the_meaning_of_gravity_down_says(tmp_path):
+    """An accelerometer whose sign is iOS's, in axes forward-left-up."""
+    advice = re.search(r"\[scale\] (accel = \{.*?\})", MEANING["gravity_down"])[1]
+    names = [f'"a{a}" = "accel_{a} [count]"' for a in "xyz"]
+    lines = ["[columns]", '"t" = "time [s]"', *names, "[scale]", advice]
+    (tmp_path / "map.toml").write_text("\n".join(lines))
+    force = noise()[:50] + [1.0, 2.0, G]
+    rows = [f"{0.01 * k},{x!r},{y!r},{z!r}" for k, (x, y, z) in enumerate((-force).tolist())]
+    (tmp_path / "log.csv").write_text("\n".join(["t,ax,ay,az", *rows]))
+    read = read_recording(tmp_path / "log.csv", tmp_path / "map.toml")
+    np.testing.assert_array_equal(read.accel, force)
 
 
 def test_a_gravity_of_one_is_a_log_in_g():

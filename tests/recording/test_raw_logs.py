@@ -9,6 +9,7 @@ import tomllib
 import numpy as np
 import pytest
 import raw_logs
+from scipy.spatial.transform import Rotation
 
 from pyimu import Recording, inspect, read_recording
 from pyimu.errors import UserError
@@ -361,6 +362,24 @@ def test_counts_are_sized_by_gravity_and_its_turning():
     assert (force.unit, force.value) == ("g", 1 / 16384)
     rate = rate_unit(np.round(np.degrees(gyro) * 131), accel, 0.01)
     assert (rate.unit, rate.value) == ("deg/s", 1 / 131)
+
+
+@pytest.mark.parametrize("seed", range(5, 9))
+def test_counts_of_a_gyro_that_is_turned_fast(seed):
+    """By 1 rad within a mean: -w x f is no difference of two any more, and 131 looked like 105."""
+    time, rng = np.arange(3000) * 0.01, np.random.default_rng(seed)
+    rates, phases = rng.uniform(0.1, 0.8, (3, 3)), rng.uniform(0, 6, (3, 3))
+    gyro = sum(
+        np.sin(np.outer(time, 2 * np.pi * r) + p) for r, p in zip(rates, phases, strict=True)
+    )
+    gyro = gyro * np.clip(time - 2, 0, 1)[:, None]
+    steps = Rotation.from_rotvec(0.005 * (gyro[1:] + gyro[:-1]))
+    turned = [Rotation.identity()]
+    for step in steps:
+        turned.append(turned[-1] * step)
+    push = np.sin(np.outer(time, [7.0, 5.0, 9.0])) * [1.2, 0.7, 0.4]
+    accel = Rotation.concatenate(turned).inv().apply(push + [0, 0, 9.81])
+    assert rate_unit(np.round(np.degrees(gyro) * 131), accel, 0.01).value == 1 / 131
 
 
 ST = (4.375, 8.75, 17.5, 35.0, 70.0)

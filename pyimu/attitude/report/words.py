@@ -110,8 +110,9 @@ def _about_columns(a: Outcome) -> list[str]:
         )
     if "gravity_down" in kinds:
         found.append(
-            "gravity lies on -z at rest: the body is upside down, or its axes are not "
-            'forward-left-up; map the log with [frame] body = "frd" then'
+            "gravity lies on -z at rest: the body is upside down; or its axes are not "
+            'forward-left-up, and a column map says [frame] body = "frd"; or the accelerometer has '
+            "the other sign, as iOS does"
         )
     if "gravity_off" in kinds:
         off = kinds["gravity_off"].detail

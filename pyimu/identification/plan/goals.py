@@ -49,7 +49,8 @@ def sensor_of(effects: Sequence[str], kind: str | None) -> str:
     kinds = [kind] if kind else list(KINDS)
     for name in effects:
         if name not in CATALOGUE:
-            raise UserError(f"unknown effect '{name}'{units.did_you_mean(name, CATALOGUE)}")
+            own = [known for known in CATALOGUE if set(kinds) & set(CATALOGUE[known].sensors)]
+            raise UserError(f"unknown effect '{name}'{units.or_known(name, own)}")
         kinds = [k for k in kinds if k in CATALOGUE[name].sensors]
         if not kinds:
             said = kind or " or ".join(CATALOGUE[name].sensors)

@@ -18,6 +18,14 @@ from pyimu.errors import UserError
 from pyimu.recording.columns import UNITS
 from pyimu.recording.formats.clock_times import is_clock_time
 from pyimu.recording.formats.lines import UTF_8, code_of, is_comment, lines
+from pyimu.recording.formats.marked import (
+    GNSS_LOGGER,
+    Marked,
+    gnss_logger,
+    labelled,
+    vectornav,
+)
+from pyimu.recording.formats.unnamed import names_of
 from pyimu.recording.spelling import bare, unit_of
 
 MISSING = (
@@ -39,6 +47,15 @@ OPEN = "unexpected end of data"
 """What the standard library's reader says of a line that ends within quotation marks."""
 
 UNCLOSED = "a quotation mark is not closed, so that the cells behind it are one"
+
+FAR = 100_000
+"""Lines among which a log of several kinds has each: satellites are logged from the start."""
+
+NO_TOPICS = (
+    "{}: has no topics, only ROS bags, ULog, dataflash and GnssLogger files do; leave [topics] out "
+    "of the column map"
+)
+"""What is said of a file that holds one table."""
 
 MOST_NAMES = 3
 """Rows of names and units, at most."""
@@ -74,6 +91,8 @@ class Layout:
     named: bool = True
     clocks: tuple[int, ...] = ()
     code: str = UTF_8
+    marked: Marked | None = None
+    """How a row is made of a line, where the lines say what their values are."""
 
     @property
     def unusual(self) -> str:
@@ -83,6 +102,7 @@ class Layout:
             "decimal commas" if self.decimal == "," else "",
             f"text in {self.code}" if self.code != UTF_8 else "",
             "" if self.named else "no names of columns",
+            "" if self.marked is None else self.marked.said,
             f"the numbers begin in row {self.first}" if self.first > 2 else "",
         ]
         return ", ".join(word for word in said if word)
@@ -107,18 +127,60 @@ class Layout:
         return False
 
 
-def layout_of(path: Path) -> Layout:
-    """The layout of the table in ``path``.
+def layout_of(path: Path, topic: str = "") -> Layout:
+    """The layout of the table in ``path``; ``topic`` is the word before the rows that are meant,
+    of a log of several kinds.
 
-    Raises UserError for what is no text, and for names of which a quotation mark is left open.
+    Raises UserError for what is no text, for names of which a quotation mark is left open, and for
+    a topic that is not there.
     """
     head = list(islice(lines(path), HEAD))
+    marked = _marked(head, path, topic)
+    if marked is not None:
+        told = (k for k, line in enumerate(head, 1) if _is_told(marked, line.strip()))
+        return Layout(
+            names=marked.names,
+            first=next(told, 1),
+            clocks=marked.clocks,
+            code=code_of(path),
+            marked=marked,
+        )
     found = replace(told_from(head), code=code_of(path))
     for row, line in enumerate(head[: found.first - 1], 1):
         line = line.rstrip("\r\n")
         if not is_comment(line) and len(found.cells(line)) > 1 and found.is_open(line):
             raise UserError(f"{path}: row {row}: {UNCLOSED}")
     return found
+
+
+def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
+    """How lines are read that say what their values are, None of a table's.
+
+    Raises UserError for a ``topic`` that is not there.
+    """
+    if topic:
+        found = gnss_logger(head, topic)
+        if found is not None:
+            return found
+        there = [word for word in GNSS_LOGGER if gnss_logger(head, word)]
+        if there:
+            raise UserError(f"{path}: has no topic {topic}; there are {', '.join(there)}")
+        raise UserError(NO_TOPICS.format(path))
+    there = next((t for t in GNSS_LOGGER[:2] if gnss_logger(head, t) and _holds(path, t)), None)
+    if there is not None:
+        return gnss_logger(head, there)
+    rows = [line for line in head if line.strip() and not is_comment(line)]
+    return vectornav(rows) or labelled(rows, path)
+
+
+def _is_told(marked: Marked, line: str) -> bool:
+    """Whether a line is made into another one: before the first some boards greet."""
+    return marked.rewrite(line) not in (None, line)
+
+
+def _holds(path: Path, word: str) -> bool:
+    """Whether one of the first lines of a log begins with ``word``."""
+    return any(line.startswith(word + ",") for line in islice(lines(path), FAR))
 
 
 def told_from(head: Sequence[str]) -> Layout:
@@ -140,7 +202,7 @@ def told_from(head: Sequence[str]) -> Layout:
         above = [re.sub(r'^("?#|//|%)+\s*', "", line) for k, line in numbered if k < first]
         named = _names_above(above, form, width)
     whole = [c for _, c in cells[start:] if len(c) == width]
-    names = _names(named, width, _empty(whole, width))
+    names = _names(named, width, _empty(whole, width)) or names_of(whole, form.separator)
     notes = [line for k, line in numbered if is_comment(line) or k < first]
     rate = next((_hertz(m) for line in notes[:HEAD] if (m := _RATE.search(line))), None)
     return Layout(
@@ -150,7 +212,7 @@ def told_from(head: Sequence[str]) -> Layout:
         first,
         commented,
         rate,
-        bool(names),
+        bool(names and named),
         _clocks([c for _, c in cells[start:]], width),
     )
 

@@ -148,7 +148,8 @@ class Body:
     """The bytes of a table from its line ``first`` (from 1) to before ``stop``, in whole lines.
 
     Lines of comment are left out, and those that are not ``whole``, where that is asked. Where
-    ``blanks`` separate the columns, a run of them becomes one.
+    ``blanks`` separate the columns, a run of them becomes one; ``rewrite`` makes a row of a line,
+    or none.
     Lines longer than ``LONGEST`` are cut, for the reader behind to complain.
     """
 
@@ -159,8 +160,10 @@ class Body:
         stop: int | None,
         blanks: bool,
         whole: Callable[[bytes], bool] | None = None,
+        rewrite: Callable[[str], str | None] | None = None,
     ) -> None:
         self._stream, self._blanks, self._whole = stream, blanks, whole
+        self._rewrite = rewrite
         self._left = None if stop is None else stop - first
         for _ in range(first - 1):
             stream.readline(LONGEST)
@@ -185,13 +188,16 @@ class Body:
 
     def _cleaned(self, block: bytes) -> bytes:
         commented = block.startswith(_MARKS) or any(b"\n" + mark in block for mark in _MARKS)
-        if not commented and not self._blanks and self._whole is None:
+        if not (commented or self._blanks or self._whole or self._rewrite):
             return block
         kept = block.split(b"\n")
         if commented:
             kept = [
                 line for line in kept if not line.startswith(_MARKS) or line.startswith(_NO_MARKS)
             ]
+        if self._rewrite is not None:
+            told = (self._rewrite(line.decode("utf-8", "replace").rstrip("\r")) for line in kept)
+            kept = [row.encode() for row in told if row is not None]
         if self._blanks:
             kept = [b" ".join(line.split()) for line in kept]
         if self._whole is not None:

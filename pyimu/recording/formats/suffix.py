@@ -18,6 +18,8 @@ from pyimu.files import check_regular, exists, shortened, whole
 from pyimu.recording.formats.bag import BagReader
 from pyimu.recording.formats.dataflash import DataflashReader
 from pyimu.recording.formats.hdf5 import Hdf5Reader
+from pyimu.recording.formats.json_rows import JsonReader
+from pyimu.recording.formats.layout import NO_TOPICS
 from pyimu.recording.formats.mat import MatReader
 from pyimu.recording.formats.oxts import OxtsReader, oxts_in
 from pyimu.recording.formats.parquet import ParquetReader
@@ -25,7 +27,7 @@ from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.text import CsvReader
 from pyimu.recording.formats.ulog import UlogReader
 
-TEXTS = (".csv", ".txt", ".tsv", ".dat", ".asc")
+TEXTS = (".csv", ".txt", ".tsv", ".dat", ".asc", ".gcsv")
 """Suffixes of tables in text, each also with .gz behind it."""
 
 READERS: Mapping[str, Any] = MappingProxyType(
@@ -38,12 +40,16 @@ READERS: Mapping[str, Any] = MappingProxyType(
         ".bag": BagReader,
         ".db3": BagReader,
         ".mcap": BagReader,
+        ".json": JsonReader,
         ".ulg": UlogReader,
         ".bin": DataflashReader,
         ".log": DataflashReader,
     }
 )
 """The reader of each suffix; a folder with a ``metadata.yaml`` is a bag of ROS 2."""
+
+MOST_NAMED = 6
+"""Files of a folder that a message names."""
 
 WITH_TOPICS = (BagReader, UlogReader, DataflashReader)
 """Readers of files that hold more than one stream of samples."""
@@ -61,18 +67,27 @@ def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
     if folder and oxts_in(path) == path and not topics:
         return OxtsReader.open(path)
     if folder and not (path / "metadata.yaml").is_file():
-        raise UserError(f"{path}: a folder, give the files in it")
+        raise UserError(f"{path}: a folder, give the files in it{_tables_in(path)}")
     if not folder:
         check_regular(path)
     reader = BagReader if folder else _by_suffix(path, READERS)
     if reader in WITH_TOPICS:
         return reader.open(path, topics or {})
+    if topics and reader is CsvReader and set(topics) == {"imu"}:
+        return CsvReader.open(path, topics["imu"])
     if topics:
-        raise UserError(
-            f"{path}: has no topics, only ROS bags, ULog and dataflash files do; leave [topics] "
-            "out of the column map"
-        )
+        raise UserError(NO_TOPICS.format(path))
     return reader.open(path)
+
+
+def _tables_in(folder: Path) -> str:
+    """The names of the files in a folder that a reader may open, for a message."""
+    there = sorted(p.name for p in folder.iterdir() if p.name.lower().endswith(tuple(READERS)))
+    if not there:
+        return ""
+    return f" that belong to one log: {', '.join(there[:MOST_NAMED])}" + (
+        f" and {len(there) - MOST_NAMED} more" if len(there) > MOST_NAMED else ""
+    )
 
 
 def stem(path: Path) -> str:

@@ -45,9 +45,12 @@ class CsvReader(Reader):
     _broken: list[Finding] = field(default_factory=list, compare=False, repr=False)
 
     @classmethod
-    def open(cls, path: Path) -> CsvReader:
-        """Open a table. Raises UserError for a file that cannot be read."""
-        layout = layout_of(path)
+    def open(cls, path: Path, topic: str = "") -> CsvReader:
+        """Open a table, of a log of several kinds that of ``topic``.
+
+        Raises UserError for a file that cannot be read, and for a topic that is not there.
+        """
+        layout = layout_of(path, topic)
         return cls(path, list(layout.names), layout)
 
     @property
@@ -59,6 +62,15 @@ class CsvReader(Reader):
     def rate(self) -> float | None:  # type: ignore[override]
         """Hz; what a comment says."""
         return self.layout.rate
+
+    @property
+    def crowded(self) -> bool:  # type: ignore[override]
+        """Whether a sensor's messages hold what is no sample of it."""
+        return self.body is not None
+
+    @property
+    def body(self) -> str | None:  # type: ignore[override]
+        return None if self.layout.marked is None else self.layout.marked.body
 
     @property
     def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
@@ -82,9 +94,9 @@ class CsvReader(Reader):
     def _whole(self, positions: Sequence[int], long: int) -> Iterator[tuple[Any, float]]:
         """The batches of rows up to the last whole one, and the share that was read so far."""
         done, first, stop = 0, self.layout.first, None
-        cleaned = (
-            self.layout.commented or self.layout.separator == " " or self.layout.code == UTF_16
-        )
+        told = self.layout
+        cleaned = told.commented or told.separator == " " or told.code == UTF_16
+        cleaned = cleaned or told.marked is not None
         while True:
             try:
                 for batch, share in self._parsed(positions, long, first, stop, cleaned):
@@ -129,7 +141,10 @@ class CsvReader(Reader):
         size = max(self.path.stat().st_size, 1)
         with opened(self.path) as (stream, raw):
             whole = self._is_row if self._broken else None
-            for block in Body(stream, first, stop, self.layout.separator == " ", whole).blocks():
+            marked = self.layout.marked
+            rewrite = None if marked is None else marked.rewrite
+            body = Body(stream, first, stop, self.layout.separator == " ", whole, rewrite)
+            for block in body.blocks():
                 table = pacsv.read_csv(_held_by_arrow(block), read, parse, convert)
                 for batch in table.to_batches():
                     yield batch, raw.tell() / size
@@ -180,6 +195,11 @@ class CsvReader(Reader):
         for number, line in enumerate(lines(self.path), 1):
             if number >= layout.first and line.strip() and not is_comment(line):
                 line = line.rstrip("\r\n")
+                if layout.marked is not None:
+                    row = layout.marked.rewrite(line)
+                    if row is None:
+                        continue
+                    line = row
                 if not self._broken or len(layout.cells(line)) == len(self.header):
                     yield number, line
 

@@ -23,17 +23,22 @@ PAIRS = {"gyro": ({"angular", "ang", "rotation", "turn"}, {"velocity", "rate", "
 ROLLS = {"p": "x", "q": "y", "r": "z"}
 """The rates about the axes, as aeroplanes have them, where all three are there."""
 
-WEAK = {"gyro": {"w", "g", "rate", "rates", "pqr"}, "accel": {"a", "f"}, "mag": {"m", "b"}}
+WEAK = {
+    "gyro": {"w", "g", "gy", "rate", "rates", "pqr"},
+    "accel": {"a", "ac", "f"},
+    "mag": {"m", "b", "h"},
+}
 """Letters and words that may stand for it, where they are the first word of the name."""
 
 TIMES = {"time", "timestamp", "stamp", "t", "ts", "clock"}
 """Words for times, behind which a unit of few letters is one."""
 
-MORE_TIMES = {"seconds", "epoch", "epoc", "elapsed", "sampletimefine", "tow", "cts"}
-"""Further ones: ``tow`` is the time of the week of satellites, ``cts`` that of a camera's film."""
+MORE_TIMES = {"seconds", "epoch", "epoc", "elapsed", "sampletimefine", "tow"}
+"""Further ones: ``tow`` is the time of the week of satellites."""
 
-TICKS = {"millis": "ms", "micros": "us", "nanos": "ns"}
-"""Words for times that say their unit, as Arduino's functions are called."""
+TICKS = {"millis": "ms", "micros": "us", "nanos": "ns", "cts": "ms"}
+"""Words for times that say their unit, as Arduino's functions are called; ``cts`` is that of a
+camera's film in the tables that are made of GoPro's."""
 
 CLOCKS = ("s", "ms", "us", "ns", "min", "h")
 """Units of times."""
@@ -54,6 +59,9 @@ DERIVED = (
 )
 """Words for what is no raw sample."""
 
+NO_SAMPLES = DERIVED | TRUTHS
+"""Words for what no sensor measures."""
+
 RAW = {"raw"}
 
 BEHIND = {"cal", "calibrated", "raw"}
@@ -65,6 +73,12 @@ alone."""
 
 ELSE = {"pos", "position", "vel", "velocity", "speed", "angle", "euler"}
 """Words for vectors that no inertial sensor measures."""
+
+ONE_VECTOR = [f"column {k}" for k in range(1, 5)]
+"""A table without names of a time and a vector, which its file's name may tell: ``gyro.csv``."""
+
+TOLD_BY_UNIT = ("gyro", "mag")
+"""Vectors whose units nothing else has, whatever its name: ``AsX(°/s)``, ``HX(uT)``."""
 
 _AXIS_FIRST = re.compile(r"([xyz])(gyro?s?|gyroscope|acce?l?|acceleration|mag)")
 _COUNTED = re.compile(r"(.*[A-Za-z])[_. ]?([0-3])(?: *\[1?\])?")
@@ -197,28 +211,46 @@ def triads(header: Sequence[str], file: str = "") -> list[Triad]:
     names = [named(cell) for cell in header]
     hint = tuple(word.casefold() for word in _WORD.findall(file.partition(".")[0]))
     names = [n if n.words or not n.axis else replace(n, words=hint) for n in names]
+    if [name.cell for name in names] == ONE_VECTOR:
+        pairs = zip(names[1:], "xyz", strict=True)
+        names = [names[0], *(replace(n, words=hint, axis=a) for n, a in pairs)]
     names = _with_rolls(names)
     for position, name in enumerate(names):
         if name.axis:
             stems.setdefault(name.words, {}).setdefault(name.axis, position)
-    found = []
+    found, by_unit = [], []
     for stem, axes in stems.items():
         if not all(axis in axes for axis in "xyz") or "w" in axes or "3" in axes:
             continue
-        at = tuple(axes[axis] for axis in "xyz")
-        three = tuple(names[k] for k in at)
-        unknown = stem in ((), hint) and not any(three[0].of(group) for group in STRONG)
+        at = (axes["x"], axes["y"], axes["z"])
+        three = (names[at[0]], names[at[1]], names[at[2]])
+        sure = {group: three[0].of(group) for group in STRONG}
         for group in STRONG:
-            score = 2 * (_by_unit(three, group) if unknown else three[0].of(group))
+            score = 2 * _sureness(three, group, sure, stem in ((), hint))
             if score:
                 score += bool(set(stem) & RAW) - 3 * bool(set(stem) & (DERIVED | TRUTHS))
-                found.append(Triad(group, three, at, score))  # type: ignore[arg-type]
+                found.append(Triad(group, three, at, score))
+        if stem not in ((), hint) and not any(sure.values()) and not set(stem) & NO_SAMPLES:
+            by_unit += [Triad(g, three, at, 4) for g in TOLD_BY_UNIT if _fit(three, g)]
+    there = {triad.group for triad in found if triad.score > 0}
+    found += [triad for triad in by_unit if triad.group not in there]
     return sorted(found, key=lambda triad: -triad.score)
 
 
-def _by_unit(three: Sequence[Name], group: str) -> int:
-    """How surely three columns are of ``group`` whose unit alone tells: 0 or 1."""
-    return int(all(name.unit is not None and fits(name.unit, group) for name in three))
+def _fit(three: Sequence[Name], group: str) -> bool:
+    """Whether three columns state units that a vector of ``group`` can have."""
+    return all(name.unit is not None and fits(name.unit, group) for name in three)
+
+
+def _sureness(three: Sequence[Name], group: str, sure: Mapping[str, int], nameless: bool) -> int:
+    """How surely three columns are of ``group``: 0 to 2, as ``Name.of``, whose words are ``sure``.
+
+    A unit that fits is as good as a word beside a letter, as in ``wx(deg/s)``; ``nameless`` columns
+    are what their unit says, less surely.
+    """
+    if any(sure.values()):
+        return 2 if sure[group] and _fit(three, group) else sure[group]
+    return int(nameless and _fit(three, group))
 
 
 def _with_rolls(names: Sequence[Name]) -> list[Name]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from pyimu.units import STANDARD_GRAVITY
 
@@ -59,6 +60,10 @@ CLEARLY = 2.0
 BLOCKS = (0.04, 0.1, 0.2, 0.5, 1.0)
 """s; over so long means the turning of gravity is compared with the rate: fast turns need short
 ones, slow turns long ones, and of all that counts in which the two agree best."""
+
+
+TRIES = 8
+"""Steps of Newton's method to the scale of a gyro, at most."""
 
 
 @dataclass(frozen=True)
@@ -165,9 +170,11 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
     """
     largest = float(np.nanmax(np.abs(rate))) if np.isfinite(rate).any() else 0.0
     if force is not None and period is not None:
-        found = [_turning(rate, force, max(round(block / period), 2), period) for block in BLOCKS]
-        slope, correlation = max(found, key=lambda pair: pair[1])
+        lengths = [max(round(block / period), 2) for block in BLOCKS]
+        found = [(*_turning(rate, force, length, period), length) for length in lengths]
+        slope, correlation, length = max(found, key=lambda each: each[1])
         if correlation > SURE:
+            slope = _whole_turns(rate, force, length, period, slope)
             for unit, one in (("rad/s", 1.0), ("deg/s", np.pi / 180)):
                 if 1 / LIKE < slope / one < LIKE:
                     why = f"gravity turns {slope / one:.2f} times as fast as these say"
@@ -262,3 +269,47 @@ def _turning(
     if len(made) < 24 or power <= 0:
         return 0.0, 0.0
     return float(made @ seen) / float(made @ made), float(made @ seen) / np.sqrt(power)
+
+
+def _whole_turns(
+    rate: np.ndarray, force: np.ndarray, length: int, period: float, slope: float
+) -> float:
+    """The ``slope`` of ``_turning`` for turns of any size: -w x f is the change of small ones, and
+    of those of 1 rad between two means it makes it a quarter too large.
+
+    The scale k of the rates is sought at which two neighbouring means agree, each over ``length``
+    samples that were turned, by k w, to where the two blocks meet.
+    """
+    step = 1e-3
+    for _ in range(TRIES):
+        apart = _apart(rate, force, length, period, slope)
+        more = _apart(rate, force, length, period, slope * (1 + step))
+        size = np.linalg.norm(apart, axis=1)
+        kept = np.isfinite(size) & (size < 3 * np.nanmedian(size))
+        change = ((more - apart) / (slope * step))[kept].ravel()
+        power = float(change @ change)
+        if not power > 0:
+            break
+        before, slope = slope, slope - float(change @ apart[kept].ravel()) / power
+        if abs(slope - before) < step * abs(before) or not slope > 0:
+            break
+    return slope
+
+
+def _apart(
+    rate: np.ndarray, force: np.ndarray, length: int, period: float, scale: float
+) -> np.ndarray:
+    """By how much the mean force (m, 3) of a block and that of the block before it differ, in the
+    axes that the body has between the two.
+    """
+    count = min(len(rate), len(force)) // length
+    w, f = (v[: count * length].reshape(count, length, 3) for v in (rate, force))
+    turn = Rotation.from_rotvec(0.5 * scale * period * np.nan_to_num(w).reshape(-1, 3))
+    halves = turn.as_matrix().reshape(count, length, 3, 3)
+    whole, at_start = np.broadcast_to(np.eye(3), (count, 3, 3)), np.zeros((count, 3))
+    for k in range(length):
+        middle = whole @ halves[:, k]
+        at_start = at_start + np.einsum("nij,nj->ni", middle, f[:, k]) / length
+        whole = middle @ halves[:, k]
+    at_end = np.einsum("nji,nj->ni", whole, at_start)
+    return at_start[1:] - at_end[:-1]

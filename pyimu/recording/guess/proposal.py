@@ -192,7 +192,13 @@ def _time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None)
         found.rate = rate or reader.rate
         return None if found.rate is None else 1 / found.rate
     k, values, guess = min(
-        candidates, key=lambda c: (c[2].unit is None, _unevenness(c[1]), "date" not in c[2].why)
+        candidates,
+        key=lambda c: (
+            c[2].unit is None,
+            _unevenness(c[1]),
+            "stamp" not in names[c[0]].words,
+            "date" not in c[2].why,
+        ),
     )
     for other, _, its in candidates:
         if other != k:

@@ -30,8 +30,9 @@ class MapGiven:
         return next(entries, {}).get("scale", {})
 
     def files(self, known: Container[str]) -> list[Mapping[str, Any]]:
-        """The further files that are none of those that are ``known``."""
-        return [e for e in self.data.get("file", []) if Path(e["name"]).name not in known]
+        """The further files that are none of those ``known``, and those of another topic."""
+        given = self.data.get("file", [])
+        return [e for e in given if "topic" in e or Path(e["name"]).name not in known]
 
 
 FRAME = (

@@ -1,0 +1,194 @@
+"""Lines that say what their values are: a label before each, or a word that tells what follows.
+
+``ax: 0.12 ay: 0.98``, ``gx=1,gy=2`` and JSON on a line each are what small boards write to a serial
+port; ``$VNIMU,...*62`` a VectorNav sensor (VN-100 user manual, asynchronous ASCII messages), and
+``UncalGyro,...`` Android's GnssLogger, whose head names the fields of each word. Such a line is
+rewritten as a row of a table: its values between commas.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import reduce
+
+from pyimu.errors import UserError
+from pyimu.recording.spelling import unit_of
+
+Rewrite = Callable[[str], str | None]
+"""A line as a row of a table; None of one that holds nothing of it."""
+
+SHARE = 0.8
+"""Of the last half of the first lines so many have labels, the same ones."""
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?nan|[-+]?inf"
+_PAIR = re.compile(
+    rf'[\s,;|]*"?(?P<label>[A-Za-z_][\w./()\[\]°]*(?: [\w./()\[\]°]+)*)"?\s*[:=]\s*'
+    rf"(?P<value>{_NUMBER})(?=$|[\s,;|}}A-Za-z°µ])",
+    re.I,
+)
+_WORD = re.compile(r"\s*([A-Za-z°µ%][^\s,;|:=}]*)(?=$|[\s,;|}])")
+_STAMP = re.compile(r"\s*(\d{1,2}:\d{2}:\d{2}[.,]?\d*)\s*->\s*")
+"""What Arduino's serial monitor writes before a line."""
+
+STAMP = "time of day"
+"""The column of such stamps."""
+
+
+@dataclass(frozen=True)
+class Marked:
+    """How marked lines are read: the ``names`` of the values, what makes a row of a line, what is
+    ``said`` of it, and the axes that are defined.
+    """
+
+    names: tuple[str, ...]
+    rewrite: Rewrite
+    said: str
+    clocks: tuple[int, ...] = ()
+    body: str | None = None
+
+
+def labelled(lines: Sequence[str], where: object) -> Marked | None:
+    """How the ``lines`` are read, where most have a label before each of their numbers.
+
+    Raises UserError where the values of one sample stand in several lines.
+    """
+    found = [pairs for line in lines[len(lines) // 2 :] if (pairs := _pairs(line)) is not None]
+    kinds = Counter(_labels(pairs) for pairs in found)
+    if not kinds or sum(kinds.values()) < SHARE * (len(lines) - len(lines) // 2):
+        return None
+    (labels, count), *others = kinds.most_common()
+    if count < SHARE * len(found):
+        several = " and ".join(kind[0] for kind, _ in (kinds.most_common(2)))
+        raise UserError(
+            f"{where}: the values of one sample stand in several lines, those of {several}; have "
+            "them written in one line"
+        )
+    if len(labels) < 2:
+        return None
+    units = _units(next(pairs for pairs in found if _labels(pairs) == labels))
+    names = _with_stems([label for label in labels if label != STAMP])
+    names = [f"{n} [{u}]" if u else n for n, u in zip(names, units, strict=True)]
+    stamped = labels[0] == STAMP
+
+    def rewrite(line: str) -> str | None:
+        pairs = _pairs(line)
+        known = pairs is not None and _labels(pairs) == labels
+        return ",".join(value for _, value, _ in pairs) if known and pairs else line
+
+    names = [STAMP] * stamped + names
+    return Marked(tuple(names), rewrite, "a label before each number", (0,) if stamped else ())
+
+
+Pairs = list[tuple[str, str, str | None]]
+"""Label, number as it stands there, and unit behind it."""
+
+
+def _labels(pairs: Pairs) -> tuple[str, ...]:
+    return tuple(label for label, _, _ in pairs)
+
+
+def _pairs(line: str) -> Pairs | None:
+    """The labels and numbers of a line, None of one that has anything else."""
+    found: Pairs = []
+    line = line.strip().strip("{}").rstrip(",; ")
+    stamp = _STAMP.match(line)
+    at = 0
+    if stamp is not None:
+        found.append((STAMP, stamp[1], None))
+        at = stamp.end()
+    while at < len(line):
+        match = _PAIR.match(line, at)
+        if match is None:
+            return None
+        at, unit = match.end(), None
+        word = _WORD.match(line, at)
+        if word is not None and unit_of(word[1]) is not None:
+            at, unit = word.end(), unit_of(word[1])
+        found.append((match["label"], match["value"], unit))
+    return found or None
+
+
+def _units(pairs: Pairs) -> list[str | None]:
+    """The unit of each value; one behind the last of a vector is that of its other two, too."""
+    own = [(label, unit) for label, _, unit in pairs if label != STAMP]
+    units = [unit for _, unit in own]
+    for k, (label, unit) in enumerate(own):
+        if unit and k >= 2 and units[k - 2 : k] == [None, None] and label[-1:] in "zZ":
+            units[k - 2 : k] = [unit, unit]
+    return units
+
+
+def _with_stems(labels: Sequence[str]) -> list[str]:
+    """The labels; an axis alone has the words of the one before it: ``Acceleration X: 1, Y: 2``."""
+    found: list[str] = []
+    for label in labels:
+        if label in tuple("xyzXYZ") and found and " " in found[-1]:
+            label = f"{found[-1].rpartition(' ')[0]} {label}"
+        found.append(label)
+    return found
+
+
+VECTORNAV = {
+    "$VNIMU": "mag accel gyro temperature pressure",
+    "$VNYMR": "yaw pitch roll mag accel gyro",
+    "$VNQMR": "q_x q_y q_z q_w mag accel gyro",
+    "$VNMAR": "mag accel gyro",
+}
+"""What the messages of a VectorNav sensor hold, in their order; a vector x first."""
+
+VECTORNAV_UNITS = {"mag": "gauss", "accel": "m/s^2", "gyro": "rad/s", "temperature": "degC"}
+
+
+def vectornav(lines: Sequence[str]) -> Marked | None:
+    """How the ``lines`` of a VectorNav sensor are read, None of any others.
+
+    Of several messages the first of ``VECTORNAV`` counts. A line whose checksum is wrong stays as
+    it is, and is no row.
+    """
+    there = {line.partition(",")[0].strip() for line in lines}
+    tag = next((name for name in VECTORNAV if name in there), None)
+    if tag is None:
+        return None
+    names = []
+    for word in VECTORNAV[tag].split():
+        unit = f" [{VECTORNAV_UNITS[word]}]" if word in VECTORNAV_UNITS else ""
+        vector = word in ("mag", "accel", "gyro")
+        names += [f"{word}_{a}{unit}" for a in "xyz"] if vector else [f"{word}{unit}"]
+
+    def rewrite(line: str) -> str | None:
+        if not line.startswith(tag + ","):
+            return None
+        body, _, sum_said = line.strip().partition("*")
+        if sum_said and sum_said.upper() != _checksum(body[1:]):
+            return line
+        return ",".join(body.split(",")[1 : len(names) + 1])
+
+    return Marked(tuple(names), rewrite, f"the messages {tag}", body="frd")
+
+
+def _checksum(text: str) -> str:
+    """That of NMEA 0183: all characters between $ and * by exclusive or, in two digits."""
+    return f"{reduce(lambda a, b: a ^ b, text.encode(), 0):02X}"
+
+
+GNSS_LOGGER = ("UncalGyro", "Gyro", "UncalAccel", "Accel", "UncalMag", "Mag")
+"""Words before the samples of GnssLogger that are no satellite's."""
+
+
+def gnss_logger(lines: Sequence[str], word: str) -> Marked | None:
+    """How the rows of GnssLogger that begin with ``word`` are read: its head names their fields."""
+    names = next((_fields(line) for line in lines if _fields(line)[:1] == [word]), None)
+    if names is None or len(names) < 6:
+        return None
+
+    def rewrite(line: str) -> str | None:
+        return line if line.startswith(word + ",") else None
+
+    return Marked(tuple(names), rewrite, f"the rows {word}")
+
+
+def _fields(line: str) -> list[str]:
+    return [field.strip() for field in line.lstrip("# ").split(",")] if line[:1] == "#" else []

@@ -1,0 +1,170 @@
+"""Tables of programs, loggers and data sets whose columns are known by what describes them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from itertools import islice
+
+from pyimu.errors import UserError
+from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.columns import XYZ
+from pyimu.recording.counts import Scale
+from pyimu.recording.formats.layout import FAR
+from pyimu.recording.formats.lines import lines
+from pyimu.recording.formats.marked import GNSS_LOGGER
+from pyimu.recording.formats.reader import Reader
+from pyimu.recording.vectors import triad_map
+from pyimu.units import parse
+
+GYROFLOW = ("GYROFLOW IMU LOG", "CAMERA IMU LOG")
+"""First lines of Gyroflow's text."""
+
+GCSV = {"t": ("time", "tscale", "s"), "g": ("gyro", "gscale", "rad/s")} | {
+    "a": ("accel", "ascale", "g"),
+    "m": ("mag", "mscale", "gauss"),
+}
+"""By the first letter of its columns the quantity, the name of a count's size, and its unit."""
+
+
+def gyroflow(reader: Reader) -> ForeignMap | None:
+    """Gyroflow's ``.gcsv`` (docs.gyroflow.xyz, "GCSV format"): counts, of which the lines before
+    the table say the size, in s, rad/s and g.
+
+    Its axes are those of the sensor; ``orientation`` is that in the camera. A magnetometer's unit
+    is not settled there, and it is left out.
+    """
+    if reader.header[:4] != ["t", "gx", "gy", "gz"]:
+        return None
+    head = [line.strip() for line in islice(lines(reader.path), 60)]
+    if not head or not head[0].upper().startswith(GYROFLOW):
+        return None
+    said = {key.strip(): value.strip() for key, _, value in (line.partition(",") for line in head)}
+    columns, scale = {}, {}
+    for cell in reader.header:
+        group, key, unit = GCSV.get(cell[:1], ("", "", ""))
+        if group in ("time", "gyro", "accel") and cell in ("t", *(f"{cell[0]}{a}" for a in XYZ)):
+            name = "time" if group == "time" else f"{group}_{cell[1]}"
+            columns[cell] = f"{name} [count]"
+            scale[name] = Scale(_number(reader, said, key), parse(unit))
+    return ForeignMap(columns=columns, scale=scale)
+
+
+def _number(reader: Reader, said: dict[str, str], key: str) -> float:
+    """The number behind ``key`` in the lines before the table. Raises UserError for none."""
+    try:
+        value = float(said.get(key, ""))
+    except ValueError:
+        value = 0.0
+    if not 0 < abs(value) < math.inf:
+        raise UserError(
+            f"{reader.path}: the lines before the table have no {key}, the size of a count; add "
+            f"one such as {key},0.001"
+        )
+    return value
+
+
+GNSS_UNITS = {"Accel": ("accel", "m/s^2", "Mps2"), "Gyro": ("gyro", "rad/s", "RadPerSec")} | {
+    "Mag": ("mag", "uT", "MicroT")
+}
+"""What GnssLogger's words hold, in which unit, and how that ends the names of its fields."""
+
+
+def gnss_logger(reader: Reader) -> ForeignMap | None:
+    """Android's GnssLogger (LOGGING_FORMAT.md of gps-measurement-tools): the instant of each sample
+    in ns since the phone started; without the phone's own calibrations where both are there.
+    """
+    own = next((word for word in GNSS_LOGGER if reader.header[:1] == [word]), None)
+    if own is None or "elapsedRealtimeNanos" not in reader.header:
+        return None
+    files: list[tuple[str, ForeignMap]] = []
+    if own in ("UncalGyro", "Gyro"):
+        there = _words(reader)
+        for kind in ("Accel", "Mag"):
+            word = next((w for w in (f"Uncal{kind}", kind) if w in there), None)
+            if word is not None:
+                other = ForeignMap(columns=_gnss_columns(word), topics={"imu": word})
+                files.append((reader.path.name, other))
+    return ForeignMap(columns=_gnss_columns(own), files=tuple(files))
+
+
+def _gnss_columns(word: str) -> dict[str, str]:
+    group, unit, ending = GNSS_UNITS[word.removeprefix("Uncal")]
+    cells = [f"{word}{a}{ending}" for a in "XYZ"]
+    return {"elapsedRealtimeNanos": "time [ns]"} | triad_map(cells, group, unit)
+
+
+def _words(reader: Reader) -> set[str]:
+    """The words that rows of GnssLogger begin with."""
+    found: set[str] = set()
+    for line in islice(lines(reader.path), FAR):
+        found.add(line.partition(",")[0])
+        if {"UncalAccel", "UncalMag"} <= found:
+            break
+    return found
+
+
+def open_log(reader: Reader) -> ForeignMap | None:
+    """SparkFun's OpenLog Artemis (its ICM-20948: mg, deg/s, uT): date and time of day in hundredths
+    of a second.
+    """
+    force, rate, field = ([f"{n}{a}" for a in "XYZ"] for n in "agm")
+    if not {"rtcTime", *force, *rate} <= set(reader.header) or "rtcTime" not in reader.clocks:
+        return None
+    columns = {"rtcTime": "time [s]"}
+    columns |= triad_map(force, "accel", "mg") | triad_map(rate, "gyro", "deg/s")
+    if set(field) <= set(reader.header):
+        columns |= triad_map(field, "mag", "uT")
+    if "imu_degC" in reader.header:
+        columns["imu_degC"] = "temperature [degC]"
+    return ForeignMap(columns=columns)
+
+
+def bag_text(reader: Reader) -> ForeignMap | None:
+    """``imu.txt`` of the data sets of UZH (FPV, event cameras), which rpg's scripts write of bags:
+    s since 1970, rad/s, m/s^2.
+    """
+    rate, force = ([f"{n}_{a}" for a in XYZ] for n in ("ang_vel", "lin_acc"))
+    if not {"timestamp", *rate, *force} <= set(reader.header):
+        return None
+    columns = {"timestamp": "time [s]"} | triad_map(rate, "gyro", "rad/s")
+    return ForeignMap(columns=columns | triad_map(force, "accel", "m/s^2"))
+
+
+def ronin(reader: Reader) -> ForeignMap | None:
+    """RoNIN's data.hdf5 (Herath et al. 2020, and the data set's README): the phone's ``synced``
+    arrays, s, rad/s without Android's calibration, m/s^2, uT.
+
+    Its poses are those of another phone on the body, and no truth of this one's.
+    """
+    cells = set(reader.header)
+    vectors = (("gyro_uncalib", "gyro", "rad/s"), ("acce", "accel", "m/s^2"))
+    columns = {"synced/time": "time [s]"}
+    for name, group, unit in (*vectors, ("magnet", "mag", "uT")):
+        three = [f"synced/{name}[{k}]" for k in range(3)]
+        if set(three) <= cells:
+            columns |= triad_map(three, group, unit)
+    needed = {"synced/time", "synced/gyro_uncalib[0]", "synced/acce[0]", "pose/tango_pos[0]"}
+    return ForeignMap(columns=columns) if needed <= cells else None
+
+
+def nuscenes(reader: Reader) -> ForeignMap | None:
+    """``ms_imu`` of nuScenes' CAN bus (README of the devkit's can_bus): us since 1970, rad/s and
+    m/s^2; ``q`` is an estimate.
+    """
+    rate, force = ([f"{n}[{k}]" for k in range(3)] for n in ("rotation_rate", "linear_accel"))
+    if not {"utime", *rate, *force} <= set(reader.header):
+        return None
+    columns = {"utime": "time [us]"} | triad_map(rate, "gyro", "rad/s")
+    return ForeignMap(columns=columns | triad_map(force, "accel", "m/s^2"))
+
+
+PROGRAMS: tuple[tuple[str, Callable[[Reader], ForeignMap | None]], ...] = (
+    ("Gyroflow's log, by its description", gyroflow),
+    ("GnssLogger, by its description", gnss_logger),
+    ("OpenLog Artemis, by its firmware", open_log),
+    ("imu.txt of a bag, by its names", bag_text),
+    ("RoNIN, by its description", ronin),
+    ("nuScenes' CAN bus, by its description", nuscenes),
+)
+"""What each is called, and its map."""
