@@ -14,7 +14,7 @@ from pyimu.attitude.calibration import MagnetometerCalibration
 from pyimu.attitude.columns import (
     axes_std,
     latitude_of,
-    motion_walk,
+    motion_bias,
     rate_noise,
     recorded_age,
     scale_std,
@@ -145,7 +145,7 @@ def run(
     yaw = initial_yaw(recording, log.rest, heading0, turned, north) if q0 is None else Yaw()
     values = told | _of_the_log(replace(log, recording=recording))
     values |= _of_the_part(recording, known, None if log.declared is None else known)
-    values["motion_walk"] = motion_walk(log.declared)
+    values["motion_bias"] = motion_bias(log.declared)
     unseen = [values[f"std0[{i}]"] for i in (4, 5, 6)] if "std0[4]" in values else BIAS_STD
     values |= initial_values(recording, known, log.rest, latitude, q0, yaw, unseen)
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)

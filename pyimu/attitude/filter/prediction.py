@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
-from pyimu.attitude.filter import late_heading, long_push
+from pyimu.attitude.filter import late_heading, long_push, turning
 from pyimu.attitude.filter.field import is_magnetometer
 from pyimu.attitude.filter.gravity_update import (
     Body,
@@ -15,6 +15,7 @@ from pyimu.attitude.filter.gravity_update import (
     inclination,
     is_pushed,
     is_tilt_known,
+    scaled_tilt,
     tilt_variance,
     vertical,
     white_variance,
@@ -28,7 +29,6 @@ from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.slow_motion import Bounds
 from pyimu.attitude.filter.stillness import (
     CALM,
-    FAST,
     SLOW,
     UNKNOWN,
     Stillness,
@@ -69,6 +69,13 @@ PUSHED = 0.05
 by three standard deviations at the start looks like less. Chosen on runs 100 to 129 of the vehicles
 of ``benchmarks/attitude_honesty.py``."""
 
+
+SCALE_TIME = 50.0
+"""s; in which the tilt that the gyro's scale factors may have made becomes as unsure to the gains
+as it is: they know nothing of the scale factors, which turn the tilt slowly and for long where the
+joints of an arm swing to and fro, and gravity may correct that. Chosen with ten arms of seed 95
+whose sensors are ``bodies.AS_BOUGHT`` (``benchmarks/attitude_honesty.py``); with 33 s the tilt of
+trial 26 of BROAD is a hundredth of a degree worse."""
 
 ARGUMENTS = "estimate memory u p h"
 """Of a prediction, by their names in ``Layout``."""
@@ -247,16 +254,16 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
 def added_noise(at: Instant, sample: Sample, rest: Rest):
     """Variance (3,) that a sample adds to the attitude, to attitude and bias together, to the bias.
 
-    To that of the gyro's noise come the noises that grow with the rate, and the angle about an
-    axis whose gyro is lost. A body that is called stationary does not turn by the gyro, and its
-    attitude has the noise of ``stationary_std``. What a ``rest`` had found of the bias in its last
-    samples is not known any more once it has ended.
+    To that of the gyro's noise come the noises that grow with the rate, the angle about an axis
+    whose gyro is lost, and what scale factors may have made of the tilt. A body that is called
+    stationary does not turn by the gyro, and its attitude has the noise of ``stationary_std``. What
+    a ``rest`` had found of the bias in its last samples is not known any more once it has ended.
     """
     settings, h, moving = at.settings, at.h, rest.moving
     noise = process_noise(settings.gyro.white, settings.gyro.walk, h)
     square = sample.rate**2
-    turning = ca.sum1(square) * h
-    relative = settings.scalar["rate_noise"] ** 2 * turning + settings.gyro.relative**2 * square * h
+    angle = ca.sum1(square) * h
+    relative = settings.scalar["rate_noise"] ** 2 * angle + settings.gyro.relative**2 * square * h
     still, least = (h * settings.scalar["stationary_std"]) ** 2, LEAST_N**2 * h
     turned = ca.diag(noise[:3, :3]) + relative
     if sample.gyro_lost is not False:
@@ -264,15 +271,23 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
             at.memory.lost_for, sample.lost_for
         )
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
+    x, before = at.memory.estimate, at.memory.turning
+    turned = turned + ca.sum2(scaled_tilt(x, vertical(x)) ** 2) * (h / SCALE_TIME)
+    in_motion = turning.bias_variance(before, _turning(at, sample), settings.scalar["motion_bias"])
     return (
         least + (1 - moving) * at.stationary * still + moving * turned + rest.unseen,
         moving * ca.diag(noise[:3, 3:]),
         ca.diag(noise[3:, 3:])
         + LEAST_K**2 * h
-        + settings.scalar["bias_noise"] ** 2 * turning
-        + settings.scalar["motion_walk"] ** 2 * h * (rest.still.span <= FAST)
+        + settings.scalar["bias_noise"] ** 2 * angle
+        + in_motion
         + rest.forgotten,
     )
+
+
+def _turning(at: Instant, sample: Sample):
+    """How much the body turns, with this sample: ``Memory.turning``."""
+    return turning.followed(at.memory.turning, sample.rate - at.memory.estimate.bias, at.h)
 
 
 def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, noise) -> list[ca.SX]:
@@ -323,6 +338,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         sample.sensors,
         speed_for,
         rest.calm,
+        _turning(at, sample),
         vertical_noise,
         ca.vertcat(*place),
         field,
@@ -349,7 +365,9 @@ def _pushed_for_long(at: Instant, sample: Sample, x: Estimate, goes_on) -> LongP
     scalar, motion = at.settings.scalar, at.memory.motion
     moves = goes_on * (scalar["accel_std"] > 0)
     level = quaternion.to_matrix(x.q)[:2, :] @ sample.force
-    own = scalar["gravity"] ** 2 * tilt_variance(x.covariance, vertical(x))
+    up = vertical(x)
+    tilt = tilt_variance(x.covariance, up) + ca.sumsqr(scaled_tilt(x, up)) / 2
+    own = scalar["gravity"] ** 2 * tilt
     used = where(sample.force_valid, moves)
     time = scalar["motion_time"]
     return long_push.followed(motion.long, level, own, motion.across, time, moves, used, at.h)
