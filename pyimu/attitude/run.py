@@ -22,6 +22,7 @@ from pyimu.attitude.columns import (
 )
 from pyimu.attitude.driven import speed_share
 from pyimu.attitude.filter.compensation import left_in, noise_of
+from pyimu.attitude.filter.stillness import SWAY_TIME
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
 from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
@@ -282,6 +283,9 @@ def _of_the_log(log: Prepared) -> dict[str, float]:
     if WHITE[0] in known.mag.values:
         white = float(np.sqrt(np.mean(known.mag.values[WHITE[0]][WHITE[1]] ** 2)))
         values["field_noise"] = max(white, USUAL["field_noise"])
+    if log.rest.sways:
+        # Whether it still sways shows after that time; until then it would seem to rest.
+        values["rest_time"] = SWAY_TIME
     if getattr(recording, "stationary", None) is not None:
         values["rest_time"] = 0.0
     if off := speed_share(recording):

@@ -67,9 +67,8 @@ def test_the_tilt_of_an_arm_follows_gravity_where_its_gyro_is_off():
     for seed in (6, 11):
         log = bodies.arm(np.random.default_rng([96, seed, 8]), sensors=bodies.AS_BOUGHT)
         found = run(Recording.from_arrays(time=log.time, gyro=log.gyro, accel=log.accel))
-        up, true = (
-            Rotation.from_quat(q, scalar_first=True).inv().apply([0, 0, 1]) for q in (found.q, log.q)
-        )
+        axes = (Rotation.from_quat(q, scalar_first=True) for q in (found.q, log.q))
+        up, true = (a.inv().apply([0, 0, 1]) for a in axes)
         tilt = np.degrees(2 * np.arcsin(np.linalg.norm(up - true, axis=1) / 2))
         assert np.sqrt(np.mean(tilt[1000:] ** 2)) < 2.0
 

@@ -38,8 +38,11 @@ from pyimu.attitude.filter.stillness import (
     is_still,
     passes,
     share_of_noise,
+    stands,
     sway,
+    sways,
     turns,
+    turns_unseen,
 )
 from pyimu.attitude.filter.stillness import followed as still_followed
 from pyimu.attitude.filter.stillness import kept as still_kept
@@ -145,13 +148,13 @@ class Rest:
 
     How ``still`` the body has been, whether it is ``resting``, whether that is ``sure`` because the
     body did not drive before or shook, whether there is ``doubt``, because its velocity is not
-    known either, and which share of the measured turn is one (``moving``): none where the body is
-    called stationary, at rest without doubt what is not noise. These are factors: casadi would draw
-    a choice into every product. ``before`` is the estimate before the sample: where a rest ends,
-    with the bias as it was before its last samples. By ``forgotten`` (3,) the variance of the bias
-    was larger then, or is by what it took of a turn that was so slow that it looked like rest, and
-    by ``unseen`` (3,) that of the attitude. ``safe``, ``later`` and ``calm`` are those of
-    ``Memory``.
+    known either or because it sways, and which share of the measured turn is one (``moving``): none
+    where the body is called stationary, at rest without doubt what is not noise. These are factors:
+    casadi would draw a choice into every product. ``before`` is the estimate before the sample:
+    where a rest ends, with the bias as it was before its last samples. By ``forgotten`` (3,) the
+    variance of the bias was larger then, or is by what it took of a turn that was so slow that it
+    looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe``, ``later``, ``calm`` and
+    ``known`` are those of ``Memory``.
     """
 
     still: Stillness
@@ -165,6 +168,7 @@ class Rest:
     safe: ca.SX
     later: ca.SX
     calm: ca.SX
+    known: ca.SX
 
     @property
     def surely(self):
@@ -198,7 +202,7 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     pushed = is_pushed(before.slow_force, x, settings, at.h)
     drove, unknown = _drove(at.memory), (velocity > DRIVES**2) + pushed > 0
     unsure = drove * (at.memory.calm > CALM)
-    doubt = unsure * unknown
+    doubt = 1 - (1 - unsure * unknown) * (1 - sways(still, _density(settings)))
     kept = 1 - resting * (1 - doubt) * share_of_noise(still, _density(settings))
     turned = (before.rests < 0) * (1 - at.stationary)
     ends = (rests > resting) + turned > 0
@@ -218,8 +222,22 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     # What a push has left goes on, though the filter, which follows it, measures no velocity.
     may_drive = drove * (ca.fmax(velocity, at.memory.motion.drift) > DRIVES**2)
     calm = calmer(at.memory.calm, before, alike, may_drive, at.h)
-    unseen, both = SLOW**2 * (unseen + begun), (1 - unsure, doubt)
-    return Rest(still, resting, *both, moving, x, forgotten, unseen, safe, later, calm)
+    before_it, hidden = _hidden_turn(at, still, x)
+    unseen, both = SLOW**2 * (unseen + begun) + still.span**2 * hidden, (1 - unsure, doubt)
+    kept = safe, later, calm, before_it
+    return Rest(still, resting, *both, moving, x, forgotten + hidden, unseen, *kept)
+
+
+def _hidden_turn(at: Instant, still: Stillness, x: Estimate):
+    """The variance of the bias about the vertical before the body was ``still`` or while it stood,
+    and that (3,) which the bias gets once the body shows that it sways, (rad/s)^2.
+    """
+    before, up = at.memory.stillness, vertical(x)
+    own = ca.dot(up, x.covariance[3:6, 3:6] @ up)
+    noise = _density(at.settings)
+    anew = 1 - (before.span > 0) * (1 - stands(before, noise))
+    known = ca.if_else(anew, own, at.memory.known)
+    return known, turns_unseen(before, still, noise, known, own) * up**2
 
 
 def _drove(memory: Memory):
@@ -339,6 +357,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         speed_for,
         rest.calm,
         _turning(at, sample),
+        rest.known,
         vertical_noise,
         ca.vertcat(*place),
         field,
