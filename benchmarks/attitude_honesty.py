@@ -16,7 +16,8 @@ on runs 100 to 109 (``--first 100 --runs 10``) of the cases of hands and vehicle
 looks still may drive on runs 100 to 129 of the vehicles, and over which times the size of a motion
 and its density are estimated with ``--seed`` 11, 5, 902, 903 and 904, by how much and for how long
 a speed may be off with ``--seed 85``, which pushes last with ``--seed 90`` of the aircraft and
-drones, when an even turn is no rest with ``--seed 92`` of the camera.
+drones, when an even turn is no rest with ``--seed 92`` of the camera, by how much the bias is
+another in motion and when a body sways with ``--seed 95``.
 
 With ``--smooth`` it is the smoothed attitude, each sample by the whole log, and vqf's
 ``offlineVQF`` is the peer; the extended Kalman filter stays one.

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from attitude_honesty import errors, estimated
+from drives import bodies
 from drives.cases import (
     hand,
     matched,
@@ -150,6 +151,7 @@ CASES = (
     Untold("gyro scale 2 % off, to and fro", off_scale(matched)),
     Untold("gyro scale 2 % off, a hand", off_scale(hand(1.0, 0.3, 2.0, 2.0))),
     Untold("gyro scale 2 % off, headings", off_scale(late(turned_one_way, 0.0))),
+    Untold("arm, sensors as bought", lambda rng: bodies.arm(rng, sensors=bodies.AS_BOUGHT)),
 )
 
 if __name__ == "__main__":

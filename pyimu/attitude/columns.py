@@ -23,10 +23,10 @@ NOMINAL_K = 3e-5
 """rad/s/sqrt(s); rate random walk of a gyro of whose wander nothing is known. A consumer's flickers
 at 5 to 10 deg/h, which is as much in 10 s to a minute."""
 
-NOMINAL_MOTION_WALK = 3e-4
-"""rad/s/sqrt(s); the setting ``motion_walk`` for such a gyro: in motion that is what its model
-lacks, ten times and more of what it does at rest. Chosen on recordings moved by hand
-(``benchmarks/attitude_real.py``); from 2e-4 to 1e-3 it makes little difference."""
+NOMINAL_MOTION_BIAS = 2.5e-3
+"""rad/s; the setting ``motion_bias`` for such a gyro: in motion its bias is another than at rest by
+what its model lacks. Chosen on recordings 02, 11 and 26 of BROAD (``benchmarks/attitude_real.py``);
+from 2e-3 to 3e-3 it makes little difference."""
 
 NOMINAL_RATE_NOISE = 1.6e-3
 """sqrt(s); the setting ``rate_noise`` for such a gyro: scale factors and axes off by a percent, for
@@ -91,11 +91,11 @@ def wanders(part: Part) -> bool:
     return any(law.walk or law.markov for law in laws)
 
 
-def motion_walk(part: Part | None) -> float:
-    """rad/s/sqrt(s); the setting ``motion_walk`` for a part that does not say how its gyro's bias
-    wanders, or for an unknown one.
+def motion_bias(part: Part | None) -> float:
+    """rad/s; the setting ``motion_bias`` for a part that does not say how its gyro's bias wanders,
+    or for an unknown one.
     """
-    return 0.0 if part is not None and wanders(part) else NOMINAL_MOTION_WALK
+    return 0.0 if part is not None and wanders(part) else NOMINAL_MOTION_BIAS
 
 
 def warming(recording: Recording) -> float:

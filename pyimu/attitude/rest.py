@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.signal import lfilter
 from scipy.special import fdtri
 
 from pyimu.attitude.filter.prediction import DRIVES
+from pyimu.attitude.filter.stillness import FAST, SHARE, SLOW, swaying_density
 from pyimu.brief import Brief
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
@@ -61,6 +63,7 @@ class Rest(Brief):
     ``declared`` says that the recording's own column ``stationary`` marks it. ``force`` is None
     where no accelerometer measures gravity. ``rate_std`` and ``force_std`` are those of a sample's
     white noise, ``rate_mean_std`` that of the mean rate. ``gravity`` in m/s^2 is that of the place.
+    ``sways`` says that the body stands on nothing solid, and may turn slowly about the vertical.
     ``other_force`` in m/s^2 is the size of the mean force of a start that would be a rest if that
     were gravity; None where there is no such start.
     """
@@ -75,6 +78,7 @@ class Rest(Brief):
     rate_mean_std: np.ndarray
     gravity: float
     declared: bool = False
+    sways: bool = False
     other_force: float | None = None
 
 
@@ -235,7 +239,23 @@ def _rest(
         np.hypot(mean_std, 1e-6),
         gravity,
         declared,
+        seen and not declared and sways(rate, recording.sample_period),
     )
+
+
+def sways(rate: np.ndarray, period: float) -> bool:
+    """Whether the ``rate`` (n, 3) rad/s of a body that looks still is that of one that stands on
+    nothing solid, as the filter judges it (``stillness.sways``).
+    """
+    if len(rate) * period < SLOW:
+        return False
+    left = rate - rate.mean(axis=0)
+    fast, slow = (
+        lfilter([period / (t + period)], [1, -t / (t + period)], left, axis=0) for t in (FAST, SLOW)
+    )
+    density = np.mean((fast - slow) ** 2) / SHARE
+    noise = np.mean(white_std(rate) ** 2) * period
+    return bool(density > swaying_density(len(rate) * period, noise))
 
 
 def white_std(values: np.ndarray) -> np.ndarray:

@@ -14,7 +14,7 @@ from pyimu.attitude.calibration import MagnetometerCalibration
 from pyimu.attitude.columns import (
     axes_std,
     latitude_of,
-    motion_walk,
+    motion_bias,
     rate_noise,
     recorded_age,
     scale_std,
@@ -22,6 +22,7 @@ from pyimu.attitude.columns import (
 )
 from pyimu.attitude.driven import speed_share
 from pyimu.attitude.filter.compensation import left_in, noise_of
+from pyimu.attitude.filter.stillness import SWAY_TIME
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
 from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
@@ -145,7 +146,7 @@ def run(
     yaw = initial_yaw(recording, log.rest, heading0, turned, north) if q0 is None else Yaw()
     values = told | _of_the_log(replace(log, recording=recording))
     values |= _of_the_part(recording, known, None if log.declared is None else known)
-    values["motion_walk"] = motion_walk(log.declared)
+    values["motion_bias"] = motion_bias(log.declared)
     unseen = [values[f"std0[{i}]"] for i in (4, 5, 6)] if "std0[4]" in values else BIAS_STD
     values |= initial_values(recording, known, log.rest, latitude, q0, yaw, unseen)
     values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
@@ -282,6 +283,9 @@ def _of_the_log(log: Prepared) -> dict[str, float]:
     if WHITE[0] in known.mag.values:
         white = float(np.sqrt(np.mean(known.mag.values[WHITE[0]][WHITE[1]] ** 2)))
         values["field_noise"] = max(white, USUAL["field_noise"])
+    if log.rest.sways:
+        # Whether it still sways shows after that time; until then it would seem to rest.
+        values["rest_time"] = SWAY_TIME
     if getattr(recording, "stationary", None) is not None:
         values["rest_time"] = 0.0
     if off := speed_share(recording):

@@ -4,10 +4,11 @@ import casadi as ca
 import numpy as np
 import pytest
 from attitude_cases import GRAVITY, H, error, part
+from scipy.signal import lfilter
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run
-from pyimu.attitude.columns import NOMINAL_MOTION_WALK, motion_walk
+from pyimu.attitude.columns import NOMINAL_MOTION_BIAS, motion_bias
 from pyimu.attitude.filter.long_push import LEAST, LongPush, followed
 from pyimu.attitude.filter.variables import USUAL
 from pyimu.attitude.filter.velocity import FIRST_STD, UNLEVELLED, first_std
@@ -74,22 +75,25 @@ def test_an_even_turn_is_none_of_the_gyros_bias():
     assert (np.abs(found.gyro_bias[shown, 2]) < BEYOND * found.std[shown, 5]).all()
 
 
-def test_a_gyro_that_wanders_in_motion_does_so_there_alone():
-    """s_b^2 + (K^2 + m^2) t, with the gyro's own noise too large to tell more of the bias."""
-    assert motion_walk(None) == NOMINAL_MOTION_WALK
-    assert motion_walk(part()) == 0
-    t = H * np.arange(2001)
-    recording = recorded(Rotation.from_euler("z", np.sin(3 * t)[:, None]), np.zeros((len(t), 3)), 3)
-    stays = recorded(Rotation.identity(len(t)), np.zeros((len(t), 3)), 3)
-    std0, m = np.full(6, 1e-3), 2e-3
-    settings = {"motion_walk": m, "rest_time": 0.0, "rate_noise": 0.0}
-    moved, still = (
-        run(log, part(N, K, N_ACCEL), std0=std0, settings=settings).std[-1, 5]
-        for log in (recording, stays)
-    )
-    assert moved == pytest.approx(np.sqrt(1e-6 + (K**2 + m**2) * 20), rel=1e-2)
-    # A body that is still has been so for 0.3 s before that shows.
-    assert still < np.sqrt(1e-6 + K**2 * 20 + m**2 * 0.4)
+def test_the_bias_is_unsure_by_how_much_the_body_turns():
+    """s_b^2 + K^2 t, and m^2 times the rises of the share, with the gyro's own noise too large to
+    tell more of the bias.
+    """
+    assert motion_bias(None) == NOMINAL_MOTION_BIAS
+    assert motion_bias(part()) == 0
+    n, std0, m = 2001, np.full(6, 1e-3), 5e-3
+    settings = {"motion_bias": m, "rest_time": 0.0, "rate_noise": 0.0}
+    found = {}
+    for fast in (0.0, 0.02, 2.0):
+        axes = Rotation.from_euler("z", fast / 3 * np.sin(3 * H * np.arange(n))[:, None])
+        log = recorded(axes, np.zeros((n, 3)), 3)
+        square = lfilter([H / (10 + H)], [1, -10 / (10 + H)], np.sum(log.gyro**2, axis=1))
+        share = np.append(0, square / (square + 0.5**2))
+        rises = np.maximum(np.diff(share), 0).sum()
+        found[fast] = run(log, part(N, K, N_ACCEL), std0=std0, settings=settings).std[-1, 5]
+        assert found[fast] == pytest.approx(np.sqrt(1e-6 + K**2 * 20 + m**2 * rises), rel=1e-2)
+    # A slow turn has next to nothing of it.
+    assert found[0.02] < 1.02 * found[0.0] and found[2.0] > 0.9 * m
 
 
 def pushed(level: float, own: float = 0.0, across: float = 0.0, seconds: float = 60.0) -> float:

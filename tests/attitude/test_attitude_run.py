@@ -73,7 +73,7 @@ def test_a_part_that_is_silent_of_its_gyros_wander_is_given_the_nominal_one():
     std0 = np.array([0.01, 0.01, 0.01, 1e-5, 1e-5, 1e-5])
     silent = part().with_sensor(part().gyro.without("rate_random_walk"))
     for known, k in ((silent, NOMINAL_K), (part(k=0), 0.0)):
-        result = run(recording, known, std0=std0, settings={"rest_time": 0, "motion_walk": 0})
+        result = run(recording, known, std0=std0, settings={"rest_time": 0, "motion_bias": 0})
         np.testing.assert_allclose(result.std[-1, 5], np.hypot(1e-5, k * np.sqrt(5)), rtol=1e-2)
 
 

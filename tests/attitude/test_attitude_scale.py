@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 from attitude_cases import GRAVITY, N_ACCEL, H, N, part
+from drives import bodies
+from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from pyimu.attitude import run
@@ -48,11 +50,27 @@ def test_turn_back_takes_away_what_the_scale_factor_made():
     assert back.max() == pytest.approx(NOMINAL_SCALE_STD * TURN * H / 2, rel=0.05)
 
 
-def test_estimates_are_the_same_without_it():
+def test_a_turn_about_the_vertical_is_estimated_the_same_without_it():
+    """But for what the accelerometer's noise tilts of it, 1e-3 rad."""
     one, two = (run(turned(0), part(), settings={"scale_std": v}) for v in (0.0, 0.02))
-    for name in ("q", "gyro_bias", "nis", "status"):
-        np.testing.assert_array_equal(getattr(one, name), getattr(two, name))
+    for name in ("q", "gyro_bias"):
+        np.testing.assert_allclose(getattr(one, name), getattr(two, name), atol=1e-6)
+    np.testing.assert_array_equal(one.status, two.status)
     assert np.all(two.heading_std >= one.heading_std) and np.all(two.std >= one.std)
+
+
+def test_the_tilt_of_an_arm_follows_gravity_where_its_gyro_is_off():
+    """Joints that swing at nearly the same pace turn the tilt on, degrees in a minute, by a gyro
+    whose scale factors are 1 % off. Its accelerometer, 10 mg off, is 0.8 deg off the vertical. A
+    tilt that was taken for a push, and was not corrected, was 8 deg off on the first of these.
+    """
+    for seed in (6, 11):
+        log = bodies.arm(np.random.default_rng([96, seed, 8]), sensors=bodies.AS_BOUGHT)
+        found = run(Recording.from_arrays(time=log.time, gyro=log.gyro, accel=log.accel))
+        axes = (Rotation.from_quat(q, scalar_first=True) for q in (found.q, log.q))
+        up, true = (a.inv().apply([0, 0, 1]) for a in axes)
+        tilt = np.degrees(2 * np.arcsin(np.linalg.norm(up - true, axis=1) / 2))
+        assert np.sqrt(np.mean(tilt[1000:] ** 2)) < 2.0
 
 
 PART = """name = "measured"

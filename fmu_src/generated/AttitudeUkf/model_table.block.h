@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{8b747d82-95fd-1114-33ef-b23a50ef4927}"
-#define MODEL_TOKEN_FMI3 "{406a8003-145a-84b6-d4fa-a7a94fad59dc}"
+#define MODEL_TOKEN_FMI2 "{711963a0-3b34-826c-ba87-5d4357950aa9}"
+#define MODEL_TOKEN_FMI3 "{5ff0f9b3-80fe-57a9-1c22-1736e2bef904}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -17,24 +17,24 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 63,
     N_OUTPUTS = 21,
-    N_STATES = 333,
-    N_CONSTANTS = 104,
+    N_STATES = 335,
+    N_CONSTANTS = 106,
     N_NOISE = 0,
     N_VARIABLES = 78
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2969 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2981 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 819134 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 806755 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 819134 };
+enum { MODEL_MOST_SAMPLES = 806755 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 819134.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 806755.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
@@ -70,7 +70,7 @@ static const BlockVariable variables[] = {
     {"scale_std", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
     {"axes_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
     {"bias_noise", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
-    {"motion_walk", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
+    {"motion_bias", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
     {"stationary_std", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
     {"rest_time", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, INFINITY},
     {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},

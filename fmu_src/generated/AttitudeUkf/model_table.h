@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{09a3656e-a39e-5de4-e7c9-dfd240419ca6}"
-#define MODEL_TOKEN_FMI3 "{70c39702-77f3-6d28-0102-efba376dec61}"
+#define MODEL_TOKEN_FMI2 "{637bc7dc-d204-bfda-bdb6-7a5e1c64730b}"
+#define MODEL_TOKEN_FMI3 "{347920dd-9988-baa0-71e1-91272ff46b61}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -17,20 +17,20 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 63,
     N_OUTPUTS = 21,
-    N_STATES = 333,
-    N_CONSTANTS = 104,
+    N_STATES = 335,
+    N_CONSTANTS = 106,
     N_NOISE = 0,
     N_VARIABLES = 104
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2969 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2981 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 819134 };
+enum { MODEL_MOST_SAMPLES = 806755 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
@@ -80,7 +80,7 @@ static const BlockVariable variables[] = {
     {"scale_std", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
     {"axes_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
     {"bias_noise", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
-    {"motion_walk", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
+    {"motion_bias", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
     {"stationary_std", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
     {"rest_time", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, INFINITY},
     {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},

@@ -61,8 +61,8 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real biasNoise(min=0) = 0
     "Root density of the walk of the bias over the rate [1/sqrt(s)]"
     annotation(Dialog(group="Filter"));
-  parameter Real motionWalk(min=0) = 0
-    "Random walk of the bias beside the part's, while the body moves [rad/s/sqrt(s)]"
+  parameter Real motionBias(unit="rad/s", min=0) = 0
+    "Standard deviation by which the bias of the gyro is another while the body turns fast, by 0.5 rad/s and more over 10 s, than at rest"
     annotation(Dialog(group="Filter"));
   parameter Real stationaryStd(unit="rad/s", min=0) = 1e-05
     "Standard deviation of the rate of a body that is called stationary"
@@ -220,7 +220,7 @@ protected
     bias0[3], std0[1], std0[2], std0[3], std0[4], std0[5], std0[6], gravity, accelStd,
     accelBiasStd, accelCorrelationTime, gravityWalk, gravityTolerance, motionTolerance,
     steadyTolerance, motionTime, motionShare, rateNoise, scaleStd, axesStd, biasNoise,
-    motionWalk, stationaryStd, restTime, restRateTolerance, restForceTolerance, slipStd,
+    motionBias, stationaryStd, restTime, restRateTolerance, restForceTolerance, slipStd,
     speedTolerance, lostRateStd, stuckTime, axisStuckTime[1], axisStuckTime[2],
     axisStuckTime[3], axisStuckTime[4], axisStuckTime[5], axisStuckTime[6], headingMemory,
     declination, fieldStrength, fieldDip, fieldStrengthStd, fieldStd, fieldTime,
@@ -256,7 +256,7 @@ equation
   assert(scaleStd >= 0, "AttitudeUkf: scaleStd must not be below 0");
   assert(axesStd >= 0, "AttitudeUkf: axesStd must not be below 0");
   assert(biasNoise >= 0, "AttitudeUkf: biasNoise must not be below 0");
-  assert(motionWalk >= 0, "AttitudeUkf: motionWalk must not be below 0");
+  assert(motionBias >= 0, "AttitudeUkf: motionBias must not be below 0");
   assert(stationaryStd >= 0, "AttitudeUkf: stationaryStd must not be below 0");
   assert(restTime >= 0, "AttitudeUkf: restTime must not be below 0");
   assert(restRateTolerance >= 0, "AttitudeUkf: restRateTolerance must not be below 0");
@@ -373,17 +373,17 @@ one of that correlation time, as far as the run shows less. The errors of a real
 motion look like a slow velocity: a run over a log takes 1, which does not ask the run, where
 rateNoise is not 0.</td></tr>
 <tr><td>scaleStd</td><td>Standard deviation of the scale factor of each of the gyro's axes, of which
-the run learns nothing: std has what that makes of a turn that goes on, and of the bias; the
-estimates are the same.</td></tr>
+the run learns nothing: std has what that makes of a turn that goes on, and of the bias; gravity
+corrects the tilt that much sooner, and heading and bias are estimated the same.</td></tr>
 <tr><td>axesStd</td><td>Standard deviation of the angle, about each axis, between the vertical of
 the accelerometer and the axis about which the gyro says that a body turns whose speed is given: a
 bias of the accelerometer, axes of either. It turns with the body, and nothing is learnt of
 it.</td></tr>
 <tr><td>biasNoise</td><td>Root density of the walk of the bias over the rate: a gyro that feels
 forces has another bias when it has turned over.</td></tr>
-<tr><td>motionWalk</td><td>Random walk of the bias beside the part's, while the body moves: what the
-model of a gyro lacks shows in motion, and a turn that is slow and even is not taken for
-it.</td></tr>
+<tr><td>motionBias</td><td>Standard deviation by which the bias of the gyro is another while the
+body turns fast, by 0.5 rad/s and more over 10 s, than at rest; its share of that where it turns
+less. What the model of a gyro lacks shows in motion.</td></tr>
 <tr><td>restTime</td><td>A body of which no sample differs from the others for so long is at rest,
 or for 2.5 s where its bias about the vertical is not known to 2e-3 rad/s; 0: never.</td></tr>
 <tr><td>speedTolerance</td><td>Standard deviation of the share by which the accelerations of a body

@@ -419,6 +419,14 @@ def tilt_variance(covariance, up):
     return (ca.trace(pp) - ca.dot(up, pp @ up)) / 2
 
 
+def scaled_tilt(x: Estimate, up):
+    """What the gyro's scale factors make of the tilt (3, 3) rad: ``Estimate.scaled`` less its part
+    along the vertical, ``up`` (3,).
+    """
+    own = x.scaled[:3, :]
+    return own - up @ (up.T @ own)
+
+
 def vertical(x: Estimate):
     """The upward direction (3,) in body axes."""
     return quaternion.rotate(quaternion.conjugate(x.q), ca.vertcat(0, 0, 1))

@@ -122,6 +122,8 @@ class State:
             sensors=self.sensors,
             speed_for=ca.SX(0),
             calm=ca.SX(0),
+            turning=ca.SX(0),
+            known=ca.SX(0),
             vertical_noise=ca.SX(0),
             place=ca.SX.zeros(2),
             field=ca.SX(0),

@@ -65,7 +65,8 @@ class Memory:
     ``lost_for`` (3,) is how many s each gyro axis has been lost, ``same_for`` (8,) how many s gyro
     and accelerometer have not changed, and then each of their axes, while others of its triad did.
     ``sensors`` is the compensation's memory, ``speed_for`` how many s ago there was a speed,
-    ``calm`` that of ``stillness.calmer``.
+    ``calm`` that of ``stillness.calmer``, ``turning`` (rad/s)^2 that of ``turning.followed``,
+    ``known`` (rad/s)^2 the variance of the bias about the vertical by all but rests that may sway.
     ``vertical_noise`` is the variance in rad^2 that was added about the vertical since the start.
     ``place`` (2,) is where the newest entry stands in the rings of past yaws and past
     ``vertical_noise``; ``field`` 0 or 1, whether a magnetometer has been seen. The rings and the
@@ -86,6 +87,8 @@ class Memory:
     sensors: ca.SX
     speed_for: ca.SX
     calm: ca.SX
+    turning: ca.SX
+    known: ca.SX
     vertical_noise: ca.SX
     place: ca.SX
     field: ca.SX
@@ -135,6 +138,8 @@ class Memory:
                 *sensors,
                 self.speed_for,
                 self.calm,
+                self.turning,
+                self.known,
                 self.vertical_noise,
                 self.place,
                 self.field,
@@ -157,7 +162,7 @@ class Memory:
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
-    own = held, 3, 8, len(compensation.start), 1, 1, 1, 2, 1
+    own = held, 3, 8, len(compensation.start), 1, 1, 1, 1, 1, 2, 1
     return 1, 1, 1, 1, 1, 3, 1, 1, *MOTION, *STILLNESS, 6, 6, *own
 
 
@@ -181,6 +186,8 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         sensors=ca.SX(ca.DM(compensation.start)),
         speed_for=ca.SX(NO_SPEED),
         calm=ca.SX(1),
+        turning=ca.SX(0),
+        known=ca.SX(0),
         vertical_noise=ca.SX(0),
         place=ca.vertcat(late_heading.SLOTS - 1, late_heading.NEVER),
         field=ca.SX(0),

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
-from pyimu.attitude.filter import late_heading, long_push
+from pyimu.attitude.filter import late_heading, long_push, turning
 from pyimu.attitude.filter.field import is_magnetometer
 from pyimu.attitude.filter.gravity_update import (
     Body,
@@ -15,6 +15,7 @@ from pyimu.attitude.filter.gravity_update import (
     inclination,
     is_pushed,
     is_tilt_known,
+    scaled_tilt,
     tilt_variance,
     vertical,
     white_variance,
@@ -28,7 +29,6 @@ from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.slow_motion import Bounds
 from pyimu.attitude.filter.stillness import (
     CALM,
-    FAST,
     SLOW,
     UNKNOWN,
     Stillness,
@@ -38,8 +38,11 @@ from pyimu.attitude.filter.stillness import (
     is_still,
     passes,
     share_of_noise,
+    stands,
     sway,
+    sways,
     turns,
+    turns_unseen,
 )
 from pyimu.attitude.filter.stillness import followed as still_followed
 from pyimu.attitude.filter.stillness import kept as still_kept
@@ -69,6 +72,13 @@ PUSHED = 0.05
 by three standard deviations at the start looks like less. Chosen on runs 100 to 129 of the vehicles
 of ``benchmarks/attitude_honesty.py``."""
 
+
+SCALE_TIME = 50.0
+"""s; in which the tilt that the gyro's scale factors may have made becomes as unsure to the gains
+as it is: they know nothing of the scale factors, which turn the tilt slowly and for long where the
+joints of an arm swing to and fro, and gravity may correct that. Chosen with ten arms of seed 95
+whose sensors are ``bodies.AS_BOUGHT`` (``benchmarks/attitude_honesty.py``); with 33 s the tilt of
+trial 26 of BROAD is a hundredth of a degree worse."""
 
 ARGUMENTS = "estimate memory u p h"
 """Of a prediction, by their names in ``Layout``."""
@@ -138,13 +148,13 @@ class Rest:
 
     How ``still`` the body has been, whether it is ``resting``, whether that is ``sure`` because the
     body did not drive before or shook, whether there is ``doubt``, because its velocity is not
-    known either, and which share of the measured turn is one (``moving``): none where the body is
-    called stationary, at rest without doubt what is not noise. These are factors: casadi would draw
-    a choice into every product. ``before`` is the estimate before the sample: where a rest ends,
-    with the bias as it was before its last samples. By ``forgotten`` (3,) the variance of the bias
-    was larger then, or is by what it took of a turn that was so slow that it looked like rest, and
-    by ``unseen`` (3,) that of the attitude. ``safe``, ``later`` and ``calm`` are those of
-    ``Memory``.
+    known either or because it sways, and which share of the measured turn is one (``moving``): none
+    where the body is called stationary, at rest without doubt what is not noise. These are factors:
+    casadi would draw a choice into every product. ``before`` is the estimate before the sample:
+    where a rest ends, with the bias as it was before its last samples. By ``forgotten`` (3,) the
+    variance of the bias was larger then, or is by what it took of a turn that was so slow that it
+    looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe``, ``later``, ``calm`` and
+    ``known`` are those of ``Memory``.
     """
 
     still: Stillness
@@ -158,6 +168,7 @@ class Rest:
     safe: ca.SX
     later: ca.SX
     calm: ca.SX
+    known: ca.SX
 
     @property
     def surely(self):
@@ -191,7 +202,7 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     pushed = is_pushed(before.slow_force, x, settings, at.h)
     drove, unknown = _drove(at.memory), (velocity > DRIVES**2) + pushed > 0
     unsure = drove * (at.memory.calm > CALM)
-    doubt = unsure * unknown
+    doubt = 1 - (1 - unsure * unknown) * (1 - sways(still, _density(settings)))
     kept = 1 - resting * (1 - doubt) * share_of_noise(still, _density(settings))
     turned = (before.rests < 0) * (1 - at.stationary)
     ends = (rests > resting) + turned > 0
@@ -211,8 +222,22 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     # What a push has left goes on, though the filter, which follows it, measures no velocity.
     may_drive = drove * (ca.fmax(velocity, at.memory.motion.drift) > DRIVES**2)
     calm = calmer(at.memory.calm, before, alike, may_drive, at.h)
-    unseen, both = SLOW**2 * (unseen + begun), (1 - unsure, doubt)
-    return Rest(still, resting, *both, moving, x, forgotten, unseen, safe, later, calm)
+    before_it, hidden = _hidden_turn(at, still, x)
+    unseen, both = SLOW**2 * (unseen + begun) + still.span**2 * hidden, (1 - unsure, doubt)
+    kept = safe, later, calm, before_it
+    return Rest(still, resting, *both, moving, x, forgotten + hidden, unseen, *kept)
+
+
+def _hidden_turn(at: Instant, still: Stillness, x: Estimate):
+    """The variance of the bias about the vertical before the body was ``still`` or while it stood,
+    and that (3,) which the bias gets once the body shows that it sways, (rad/s)^2.
+    """
+    before, up = at.memory.stillness, vertical(x)
+    own = ca.dot(up, x.covariance[3:6, 3:6] @ up)
+    noise = _density(at.settings)
+    anew = 1 - (before.span > 0) * (1 - stands(before, noise))
+    known = ca.if_else(anew, own, at.memory.known)
+    return known, turns_unseen(before, still, noise, known, own) * up**2
 
 
 def _drove(memory: Memory):
@@ -247,16 +272,16 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
 def added_noise(at: Instant, sample: Sample, rest: Rest):
     """Variance (3,) that a sample adds to the attitude, to attitude and bias together, to the bias.
 
-    To that of the gyro's noise come the noises that grow with the rate, and the angle about an
-    axis whose gyro is lost. A body that is called stationary does not turn by the gyro, and its
-    attitude has the noise of ``stationary_std``. What a ``rest`` had found of the bias in its last
-    samples is not known any more once it has ended.
+    To that of the gyro's noise come the noises that grow with the rate, the angle about an axis
+    whose gyro is lost, and what scale factors may have made of the tilt. A body that is called
+    stationary does not turn by the gyro, and its attitude has the noise of ``stationary_std``. What
+    a ``rest`` had found of the bias in its last samples is not known any more once it has ended.
     """
     settings, h, moving = at.settings, at.h, rest.moving
     noise = process_noise(settings.gyro.white, settings.gyro.walk, h)
     square = sample.rate**2
-    turning = ca.sum1(square) * h
-    relative = settings.scalar["rate_noise"] ** 2 * turning + settings.gyro.relative**2 * square * h
+    angle = ca.sum1(square) * h
+    relative = settings.scalar["rate_noise"] ** 2 * angle + settings.gyro.relative**2 * square * h
     still, least = (h * settings.scalar["stationary_std"]) ** 2, LEAST_N**2 * h
     turned = ca.diag(noise[:3, :3]) + relative
     if sample.gyro_lost is not False:
@@ -264,15 +289,23 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
             at.memory.lost_for, sample.lost_for
         )
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
+    x, before = at.memory.estimate, at.memory.turning
+    turned = turned + ca.sum2(scaled_tilt(x, vertical(x)) ** 2) * (h / SCALE_TIME)
+    in_motion = turning.bias_variance(before, _turning(at, sample), settings.scalar["motion_bias"])
     return (
         least + (1 - moving) * at.stationary * still + moving * turned + rest.unseen,
         moving * ca.diag(noise[:3, 3:]),
         ca.diag(noise[3:, 3:])
         + LEAST_K**2 * h
-        + settings.scalar["bias_noise"] ** 2 * turning
-        + settings.scalar["motion_walk"] ** 2 * h * (rest.still.span <= FAST)
+        + settings.scalar["bias_noise"] ** 2 * angle
+        + in_motion
         + rest.forgotten,
     )
+
+
+def _turning(at: Instant, sample: Sample):
+    """How much the body turns, with this sample: ``Memory.turning``."""
+    return turning.followed(at.memory.turning, sample.rate - at.memory.estimate.bias, at.h)
 
 
 def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, noise) -> list[ca.SX]:
@@ -323,6 +356,8 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         sample.sensors,
         speed_for,
         rest.calm,
+        _turning(at, sample),
+        rest.known,
         vertical_noise,
         ca.vertcat(*place),
         field,
@@ -349,7 +384,9 @@ def _pushed_for_long(at: Instant, sample: Sample, x: Estimate, goes_on) -> LongP
     scalar, motion = at.settings.scalar, at.memory.motion
     moves = goes_on * (scalar["accel_std"] > 0)
     level = quaternion.to_matrix(x.q)[:2, :] @ sample.force
-    own = scalar["gravity"] ** 2 * tilt_variance(x.covariance, vertical(x))
+    up = vertical(x)
+    tilt = tilt_variance(x.covariance, up) + ca.sumsqr(scaled_tilt(x, up)) / 2
+    own = scalar["gravity"] ** 2 * tilt
     used = where(sample.force_valid, moves)
     time = scalar["motion_time"]
     return long_push.followed(motion.long, level, own, motion.across, time, moves, used, at.h)

@@ -11,7 +11,9 @@ body that was seen to shake where it drove. In doubt the gyro measures its bias 
 alone, and the heading is turned on by it.
 
 A body that is held still sways. Below ``1 / FAST`` Hz the density of the rate beyond the gyro's own
-is that of the sway, by which a sample is trusted less.
+is that of the sway, by which a sample is trusted less. One that sways floats, flies or is held, and
+stands on nothing that would keep it from turning slowly about the vertical, as a ship at its
+anchor: that is doubt as well.
 """
 
 from __future__ import annotations
@@ -19,6 +21,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
+
+from pyimu.symbolic.linear import reciprocal
 
 FAST, SLOW = 0.3, 3.0
 """s; time constants of two means of the rate. Their difference shows what is slower than noise."""
@@ -33,6 +37,16 @@ on three axes."""
 
 BY_CHANCE = 1.3
 """Times the density of white noise that the sway must exceed: twice by what it scatters."""
+
+SWAYS, FLICKERS = 6.5, 3e-9
+"""By how much more than the density of white noise, over the root of the s over which it is taken,
+and (rad/s)^2 s beside it: beyond that a body sways. Of three values in a second, chi-squared, that
+is by chance once in ten million over 10 s, and in a million over 3 s. After 10 s it is 3 times the
+density; the rests of BROAD on a table have 0.7 to 1.7 times, and a flicker of 20 deg/h has the
+second. A ship that rolls by 0.05 deg in 8 s has 4 times that of a consumer's gyro."""
+
+TURN_STD = 0.01
+"""rad/s; of the turn of a body that sways, 20 deg in half a minute."""
 
 OUTLIER = 30.0
 """Squared noise of three axes over the variance of one, which a sample exceeds with a probability
@@ -209,6 +223,32 @@ def share_of_noise(x: Stillness, noise):
     ``noise`` (rad/s)^2 s is the density of the gyro's own.
     """
     return noise / (noise + sway(x, noise))
+
+
+def sways(x: Stillness, noise):
+    """Whether a body that is still stands on nothing solid, 0 or 1; ``noise`` as for ``sway``."""
+    return (x.span >= SLOW) * (x.density > swaying_density(x.span, noise))
+
+
+def stands(x: Stillness, noise):
+    """Whether a body has been still for long and clearly does not sway, 0 or 1."""
+    return (x.span >= SWAY_TIME) * (2 * x.density <= swaying_density(x.span, noise) + noise)
+
+
+def swaying_density(span, noise):
+    """The density of the rate in (rad/s)^2 s over ``span`` s beyond which a body sways."""
+    over = ca.fmax(ca.fmin(span, SWAY_TIME), SLOW)
+    return (1 + SWAYS * reciprocal(ca.sqrt(over))) * noise + FLICKERS
+
+
+def turns_unseen(before: Stillness, after: Stillness, noise, known, own):
+    """Variance in (rad/s)^2 of the turn about the vertical that a rest has hidden until the sample
+    with which it shows that the body sways, and 0 with any other.
+
+    ``known`` (rad/s)^2 was that of the bias before the rest, ``own`` is what it has become since.
+    """
+    shows = sways(after, noise) * (1 - sways(before, noise))
+    return shows * ca.fmax(ca.fmin(known, TURN_STD**2) - own, 0)
 
 
 def sway(x: Stillness, noise):

@@ -22,8 +22,10 @@ from pyimu.symbolic.linear import reciprocal, symmetric
 
 OPTIONS = {"cse": True}
 
-DRIVEN_RATE = 1.0
-"""rad/s; of a vehicle that turns: so large that a sample tells nothing of a bias."""
+TURN_DENSITY = 0.01
+"""(rad/s)^2 s; of the turn about the vertical of a body of which it is in doubt whether it rests:
+0.01 rad/s for some 50 s, as of a ship at its anchor, or 0.03 for 5 s. What the bias is shows in
+minutes."""
 
 
 def where(condition, function: ca.Function, values, *more):
@@ -104,7 +106,7 @@ def by_zero_rate(layout: Layout, correct: Callable = unscented.correct) -> ca.Fu
     cross = x.covariance @ slope.T
     slow = ca.if_else(rest[0], rest[2], settings.scalar["stationary_std"] ** 2)
     noise, up = settings.gyro.white**2 * reciprocal(h) + slow, vertical(x)
-    turning = rest[0] * rest[1] * DRIVEN_RATE**2
+    turning = rest[0] * rest[1] * TURN_DENSITY * reciprocal(h)
     variance = symmetric(3, lambda i, j: (noise[i] if i == j else 0) + turning * up[i] * up[j])
     off, seen = rate - x.bias - earth, slope @ x.scaled
     after, _, _ = correct(x, off, slope @ cross + variance, cross, up, seen=seen)

@@ -270,8 +270,8 @@ SETTINGS = (
         "scale_std",
         "1",
         "standard deviation of the scale factor of each of the gyro's axes, of which the run "
-        "learns nothing: std has what that makes of a turn that goes on, and of the bias; the "
-        "estimates are the same",
+        "learns nothing: std has what that makes of a turn that goes on, and of the bias; gravity "
+        "corrects the tilt that much sooner, and heading and bias are estimated the same",
         0.0,
     ),
     _setting(
@@ -291,10 +291,11 @@ SETTINGS = (
         0.0,
     ),
     _setting(
-        "motion_walk",
-        "rad/s/sqrt(s)",
-        "random walk of the bias beside the part's, while the body moves: what the model of a gyro "
-        "lacks shows in motion, and a turn that is slow and even is not taken for it",
+        "motion_bias",
+        "rad/s",
+        "standard deviation by which the bias of the gyro is another while the body turns fast, by "
+        "0.5 rad/s and more over 10 s, than at rest; its share of that where it turns less. What "
+        "the model of a gyro lacks shows in motion",
         0.0,
     ),
     _setting(

@@ -268,8 +268,9 @@ def followed(
     times its correlation time T of ``bounds``. The innovations of a filter whose model is right are
     white (section III there): their mean over ``SLOW`` times T has half their density over that,
     the density 2 T s^2 of the velocity and P h of the filter's own variance. What it has beyond
-    ``DRIFTS`` times that, and ``SLIGHT``, is a walk: accelerations that last. ``used`` 0 or 1 says
-    whether the sample counts, ``moves`` whether the body moves at all.
+    ``DRIFTS`` times that, and times what the gyro's scale factors may make of it, and ``SLIGHT``,
+    is a walk: accelerations that last. ``used`` 0 or 1 says whether the sample counts, ``moves``
+    whether the body moves at all.
     """
     v, axes, time = x.velocity, quaternion.to_matrix(x.q), bounds.time
     level, up = axes[:2, :] @ v, axes[2, :].T
@@ -293,7 +294,8 @@ def followed(
     along, seen_along = grown(motion.along, above - own_along)
     slow = goes_on * (motion.slow + used * h / (SLOW * time + h) * (level - motion.slow))
     white = across * time + own_across * h / 2
-    bounded = DRIFTS / SLOW * white * reciprocal(time)
+    by_scale = ca.sumsqr(axes[:2, :] @ x.scaled[6:, :]) / 2
+    bounded = DRIFTS / SLOW * white * reciprocal(time) + DRIFTS * by_scale
     left = ca.sumsqr(slow) / 2 - bounded - SLIGHT**2
     drift = moves * mean(motion.drift, ca.fmax(left, 0), DRIFT_WINDOW, DRIFT_RISE)
     slowly, slow_share = slow_motion.followed(
