@@ -270,10 +270,17 @@ def _centred(x: State, sample: Sample) -> tuple[State, ca.SX]:
 def _bending(before, after, settings: Settings):
     """Variance that the resting force gains upwards in a step, as the tilt's grows from the
     covariance ``before`` to that ``after``: that of c phi^2 / 2, of second order, is c^2 P^2 / 2 of
-    each axis.
+    each axis, with the P of what came up since the last rest.
+
+    A tilt that was there at the rest is in the force that this showed. What came up since makes a
+    force to the side, c x phi, so that P is at most the variance of that force over c^2.
     """
-    grown = [before[i, i] * ca.fmax(after[i, i] - before[i, i], 0) for i in (0, 1)]
-    return settings.scalar["gravity"] ** 2 * sum(grown)
+    square, sides = settings.scalar["gravity"] ** 2, (RESTING.start + 1, RESTING.start)
+    return sum(
+        ca.fmin(square * before[tilt, tilt], before[side, side])
+        * ca.fmax(after[tilt, tilt] - before[tilt, tilt], 0)
+        for tilt, side in enumerate(sides)
+    )
 
 
 def _bow(x: State, step: Step):
