@@ -105,7 +105,9 @@ def stds_after(log, part, settings=None):
     at = {v.name: i for i, v in enumerate(block.inputs)}
     u = np.tile(block.start_inputs, (len(log.time), 1))
     u[:, :3], u[:, 3:6], u[:, at["stationary"]] = log.gyro, log.accel, log.stationary
-    state = Run(block, len(u), p=with_values(block, settings or SETTINGS), sample_period=log.sample_period)
+    state = Run(
+        block, len(u), p=with_values(block, settings or SETTINGS), sample_period=log.sample_period
+    )
     state.advance(u)
     return np.sqrt(
         np.array(ca.evalf(ca.diag(layout.unpack(ca.DM(state.state)).covariance))).ravel()
