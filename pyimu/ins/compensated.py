@@ -53,7 +53,7 @@ def _block(layout: Layout) -> Block:
     memory = Memory.unpack(s, layout)
     level = quaternion.from_euler(ca.SX(0), ca.SX(0), ca.SX(0))
     sample = prediction.read(layout, memory, level, ca.SX.zeros(3), u, settings, h)
-    motion = memory.mean_rate, memory.counted
+    motion = memory.mean_rate, memory.counted, memory.mean_force
     after = prediction.remembered(memory, sample, motion, h).pack()
     y = ca.vertcat(sample.rate, sample.force, sample.gyro_lost, sample.accel_lost)
     names = tuple(Variable(f"y[{i + 1}]") for i in range(y.numel()))

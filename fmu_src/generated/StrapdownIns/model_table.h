@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{32e99384-8b2c-bf41-cd8d-86a333592178}"
-#define MODEL_TOKEN_FMI3 "{2db53e38-099b-ddb2-f76b-9ca853541383}"
+#define MODEL_TOKEN_FMI2 "{3b437102-8d02-d738-6d07-801583a824b7}"
+#define MODEL_TOKEN_FMI3 "{76b1a8fe-e755-415f-81b9-a8ae0cbc7f32}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -23,13 +23,13 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 1966 };
+enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 1963 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 607041 };
+enum { MODEL_MOST_SAMPLES = 607017 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

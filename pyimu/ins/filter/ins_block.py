@@ -155,7 +155,10 @@ def _step(layout: Layout, recorded: bool) -> ca.Function:
 
 
 def _predict(layout: Layout) -> ca.Function:
-    """``s, u, p, h -> x, memory, rate, force, status, still, unturned, transition``, to updates."""
+    """``s, u, p, h -> x, memory, rate, force, status, still, unturned, transition``, to updates.
+
+    The force is the mean one, empty without wheels.
+    """
     s = ca.SX.sym("s", layout.state)
     u, p, h = (
         ca.SX.sym(name, size)
@@ -173,7 +176,7 @@ def _predict(layout: Layout) -> ca.Function:
         "predict",
         [s, u, p, h],
         [
-            *(packed, kept, sample.rate, sample.force, sample.lost),
+            *(packed, kept, sample.rate, motion[-1], sample.lost),
             *(sample.still, sample.unturned, ca.densify(transition[:])),
         ],
         OPTIONS,
@@ -229,7 +232,8 @@ def _speed(layout: Layout) -> ca.Function:
         settings = prediction.settings_of(layout, p)
         return updates.by_speed(layout, x, speed, variance, (rate, force), settings, h)
 
-    return _update(layout, "by_speed", "speed", correct, 1, 1, 3, 3, len(layout.parameters), 1)
+    sizes = 1, 1, 3, 3 * layout.wheels, len(layout.parameters), 1
+    return _update(layout, "by_speed", "speed", correct, *sizes)
 
 
 def _position(layout: Layout) -> ca.Function:
@@ -252,7 +256,7 @@ def _measured(layout: Layout) -> ca.Function:
     """``work, u, rate, force, p, h -> work`` of what was measured beside these."""
     work = begun = ca.MX.sym("w", layout.packed + REPORT + layout.errors)
     u = ca.MX.sym("u", len(layout.inputs))
-    rate, force = ca.MX.sym("rate", 3), ca.MX.sym("force", 3)
+    rate, force = ca.MX.sym("rate", 3), ca.MX.sym("force", 3 * layout.wheels)
     p, h = ca.MX.sym("p", len(layout.parameters)), ca.MX.sym("h")
     for valid, function, value, variance, more in (
         (SPEED_VALID, _speed, SPEED, SPEED_VARIANCE, (rate, force, p, h)),

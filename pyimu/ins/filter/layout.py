@@ -201,7 +201,9 @@ class Layout:
         """Of the ``Memory``, in the order of its fields."""
         window = rest_window.SIZE * self.detects
         judged = rest_judged.SIZE * self.detects
-        return (self.held, 3, 3, 3, 3, 1, 3, 1, 1, len(self.compensation.start), window, judged)
+        pushed = 3 * self.wheels
+        kept = len(self.compensation.start), window, judged
+        return (self.held, 3, 3, 3, 3, pushed, 1, 3, 1, 1, *kept)
 
     @property
     def begun(self) -> int:
@@ -245,10 +247,11 @@ class Memory:
 
     ``held`` is the last good row; ``rate`` and ``force`` (3,) are its compensated ones;
     ``mean_rate`` (3,) in body axes that of the last tenths of a second; ``counted`` (3,) in world
-    axes the velocity that counts (``weight``); ``unturned`` whether it did not turn; ``gyro_lost``
-    (3,) and ``accel_lost`` s, for how long an axis and the triad were lost; ``begun`` whether there
-    was any row; ``sensors`` is the compensation's own; ``window`` and ``judged`` are those of
-    ``rest_window`` and ``rest_judged``, empty where the filter does not look for rests.
+    axes the velocity that counts (``weight``); ``mean_force`` (3,) in body axes that of the time by
+    which a measured speed may be late, empty without wheels; ``unturned`` whether it did not turn;
+    ``gyro_lost`` (3,) and ``accel_lost`` s, for how long an axis and the triad were lost; ``begun``
+    whether there was any row; ``sensors`` is the compensation's own; ``window`` and ``judged`` are
+    those of ``rest_window`` and ``rest_judged``, empty where the filter does not look for rests.
     """
 
     held: ca.SX
@@ -256,6 +259,7 @@ class Memory:
     force: ca.SX
     mean_rate: ca.SX
     counted: ca.SX
+    mean_force: ca.SX
     unturned: ca.SX
     gyro_lost: ca.SX
     accel_lost: ca.SX

@@ -63,6 +63,7 @@ from pyimu.ins.filter.variables import (
     TEMPERATURE,
 )
 from pyimu.ins.filter.weight import (
+    TINY,
     Wander,
     bowed,
     earth_by_turn,
@@ -199,7 +200,7 @@ def predicted(
     layout: Layout, x: State, memory: Memory, sample: Sample, settings: Settings, h
 ) -> tuple[State, ca.SX, tuple]:
     """The estimate a sample later, the transition matrix (n, n) of its error, and the mean rate and
-    the velocity that counts with which that was made.
+    the velocity that counts with which that was made, and the mean force.
 
     A body that does not turn at both samples has not turned: what the gyro shows is then of its
     bias alone.
@@ -252,7 +253,8 @@ def predicted(
     covariance = symmetric(layout.errors, lambda i, j: both[i, j])
     moves = {"q": q, "velocity": velocity, "position": position, "resting": resting}
     x = _faded(layout, replace(x, **moves, covariance=covariance), fades)
-    return _unseen(x, step, memory, sample, settings, h), transition, (mean_rate, known)
+    motion = mean_rate, known, _mean_force(layout, memory, sample, settings, h)
+    return _unseen(x, step, memory, sample, settings, h), transition, motion
 
 
 def _centred(x: State, sample: Sample) -> tuple[State, ca.SX]:
@@ -270,10 +272,17 @@ def _centred(x: State, sample: Sample) -> tuple[State, ca.SX]:
 def _bending(before, after, settings: Settings):
     """Variance that the resting force gains upwards in a step, as the tilt's grows from the
     covariance ``before`` to that ``after``: that of c phi^2 / 2, of second order, is c^2 P^2 / 2 of
-    each axis.
+    each axis, with the P of what came up since the last rest.
+
+    A tilt that was there at the rest is in the force that this showed. What came up since makes a
+    force to the side, c x phi, so that P is at most the variance of that force over c^2.
     """
-    grown = [before[i, i] * ca.fmax(after[i, i] - before[i, i], 0) for i in (0, 1)]
-    return settings.scalar["gravity"] ** 2 * sum(grown)
+    square, sides = settings.scalar["gravity"] ** 2, (RESTING.start + 1, RESTING.start)
+    return sum(
+        ca.fmin(square * before[tilt, tilt], before[side, side])
+        * ca.fmax(after[tilt, tilt] - before[tilt, tilt], 0)
+        for tilt, side in enumerate(sides)
+    )
 
 
 def _bow(x: State, step: Step):
@@ -289,6 +298,16 @@ def _mean_rate(memory: Memory, rate, at_rest, rest, h):
     """The mean rate (3,) a sample later; that of a body at rest is known."""
     share = 1 - ca.exp(-h / MEAN_TIME)
     return ca.if_else(rest, at_rest, memory.mean_rate + share * (rate - memory.mean_rate))
+
+
+def _mean_force(layout: Layout, memory: Memory, sample: Sample, settings: Settings, h):
+    """The mean force (3,) a sample later, of the time by which a measured speed may be late; empty
+    without wheels.
+    """
+    if not layout.wheels:
+        return memory.mean_force
+    share = 1 - ca.exp(-h / ca.fmax(settings.scalar["speed_late_std"], TINY))
+    return memory.mean_force + share * (sample.force - memory.mean_force)
 
 
 def _counted(x: State, memory: Memory, velocity, sample: Sample):
@@ -466,7 +485,9 @@ def _gone_for(memory: Memory, sample: Sample, h) -> tuple:
 
 
 def remembered(memory: Memory, sample: Sample, motion: tuple, h) -> Memory:
-    """The memory after a sample, with the ``motion``: mean rate, and velocity that counts."""
+    """The memory after a sample, with the ``motion``: mean rate, velocity that counts, and mean
+    force.
+    """
     force = ca.if_else(sample.accel_lost, memory.force, sample.force)
     begun = ca.fmax(memory.begun, 1 - sample.accel_lost)
     gone = _gone_for(memory, sample, h)
@@ -485,6 +506,7 @@ def empty(layout: Layout, settings: Settings) -> Memory:
         ca.vertcat(0, 0, gravity),
         ca.SX.zeros(3),
         ca.SX.zeros(3),
+        ca.vertcat(0, 0, gravity)[: 3 * layout.wheels],
         ca.SX(0),
         ca.SX.zeros(3),
         *[ca.SX(0)] * 2,

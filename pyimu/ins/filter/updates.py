@@ -163,8 +163,10 @@ def by_speed(
 ) -> tuple:
     """A measured speed along the body's x axis, of the point that does not slip.
 
-    The ``motion`` is rate and force (3,). A speed that is counted over an interval is that of the
-    interval's middle: it is late, and beside an acceleration that is no noise.
+    The ``motion`` is rate and mean force (3,). A speed that is counted over an interval is that of
+    the interval's middle: it is late, and beside an acceleration that is no noise. That is the mean
+    one: beside single forces, which shake, the delay is found too small, as every slope beside what
+    is itself in error is, and the scale with it.
     """
     rate, force = motion
     arm, turns = _lever_arm(layout, x, settings), rate - x.gyro_bias
