@@ -7,7 +7,7 @@ MEANING = {
     "beyond_range": "samples beyond the part's range: the sensor was set to another, or is another",
     "clipping": "samples at a limit of the range: the motion was larger than the sensor can show",
     "clock_times": "dates or times of day: they count from the midnight before the first",
-    "coarse_stamps": "rows share stamps and come evenly: each got a time of its own by their rate",
+    "coarse_stamps": "rows share stamps, or come in bursts: each got its own time by their rate",
     "columns_left_out": (
         "no column of a recording has such a name, or it has no unit; --columns names those you "
         "need"
