@@ -73,6 +73,22 @@ def test_a_log_held_apart_has_the_drift_of_its_own_clock(late):
     assert held.clock.at(TIME[-1:]) == pytest.approx(late + drift * TIME[-1], abs=2e-4)
 
 
+FAST, SLOW, SET_ANEW = 0.02 * TIME, -0.01 * TIME, 0.6 * (TIME > 50.0)
+
+
+@pytest.mark.parametrize("late", [FAST, SLOW, SET_ANEW, -SET_ANEW])
+def test_a_clock_of_another_pace_or_set_anew_is_followed(late):
+    """No single lag fits: over 2 % of two minutes the motion, of up to 2 Hz, is another. When it is
+    set anew the samples show later, to a window of 12 s; elsewhere the lag is known to a tenth of
+    a row.
+    """
+    clock = seen(log(late))
+    known = np.abs(TIME - 50.0) > 12.0 if late is not SLOW and late is not FAST else TIME > 0.0
+    inside = known & (TIME > 6.0) & (TIME < SECONDS - 6.0)
+    assert clock.explained > 0.95
+    assert np.abs(clock.at(TIME) - late)[inside].max() < 0.1 * H
+
+
 SAWTOOTH = 8e-3 * ((TIME / 40.0) % 1.0)
 
 
@@ -153,7 +169,20 @@ def levels(shape, count, seed):
     """What is found behind measurements of ``shape`` every 2.5 s with white errors."""
     rng = np.random.default_rng(seed)
     drawn = (shape(rng) + SCATTER * rng.standard_normal(len(WINDOWS)) for _ in range(count))
-    return [level_of(WINDOWS, values, np.full(len(WINDOWS), SCATTER)) for values in drawn]
+    return [level_of(WINDOWS, values, np.full(len(WINDOWS), SCATTER), 2e-3) for values in drawn]
+
+
+def slewed(rng):
+    return 1e-3 * np.clip(0.5 * (WINDOWS - 40.0), 0.0, 8.0)
+
+
+def test_a_clock_that_is_slewed_is_followed():
+    """As a daemon takes an offset out: 8 ms at 500 ppm. A line leaves 1.3 ms of it, and steps below
+    a fifth of a row are none: a walk follows it, as do a few steps, to their own errors.
+    """
+    for one in levels(slewed, 20, 2):
+        left = np.interp(WINDOWS, one.time, one.value) - slewed(None)
+        assert np.sqrt(np.mean(left**2)) < 2 * SCATTER
 
 
 def walk(rng):
