@@ -131,6 +131,34 @@ def test_the_instant_of_a_slip_is_that_of_the_samples(seed):
     assert np.abs(clock.at(TIME) - late)[known].max() < 0.1 * H
 
 
+def eased(start, stop):
+    x = np.clip(np.minimum(TIME - start, stop - TIME), 0.0, 1.0)
+    return 0.5 - 0.5 * np.cos(np.pi * x)
+
+
+def table():
+    """A rate (n, 3) rad/s: one axis after another, a sine and constant rates to and fro."""
+    out = np.zeros((len(TIME), 3))
+    for k in range(3):
+        sine, to, fro = (eased(40 * k + a, 40 * k + b) for a, b in ((1, 12), (14, 26), (28, 39)))
+        out[:, k] = 1.5 * sine * np.sin(1.4 * np.pi * TIME) + 1.2 * to - fro
+    return out
+
+
+def test_a_large_slip_during_an_even_turn_is_known_to_lie_there():
+    """Of the reference as it is on one side of the slip the rows on the other tell nothing, not
+    even its axes and its size; an even turn from 55 to 65 s does not show when it slips.
+    """
+    rng, turned = np.random.default_rng(1), table()
+    moved = np.where(TIME[:, None] > 61.0, np.roll(turned, 30, axis=0), turned)
+    gyro = moved + NOISE * rng.standard_normal(moved.shape)
+    rate = turned + 5 * NOISE * rng.standard_normal(moved.shape)
+    trial = gyro_trial(Recording.from_arrays("log", time=TIME, gyro=gyro, ref_rate=rate))
+    clock = placed_slips(trial, measure(trial, Sensor("gyro")), Sensor("gyro"))
+    ((first, last),) = clock.unsure
+    assert first < 61.0 < last < 66.0
+
+
 @pytest.mark.long
 def test_a_level_that_stands_still_is_rarely_said_to_wander():
     """Twice the gain of the walk is half chance zero and half chi-square on one degree (Self and

@@ -30,7 +30,7 @@ def kept(values):
 
 
 FRAMES = [(k, k + 1 + k % 4) for k in range(100, 3900, 60)]
-SECONDS = [(300, 380), (1000, 1200), (2500, 2530)]
+SECONDS = [(300, 380), (1000, 1200), (1210, 1300), (2500, 2530)]
 
 
 @pytest.mark.parametrize("spans", [FRAMES, SECONDS, [*FRAMES[::9], *SECONDS[1:2]]])

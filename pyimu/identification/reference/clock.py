@@ -72,7 +72,7 @@ CHI2_MEDIAN = 0.4549
 ROUNDING = 1e-12
 """Share of a constant that its mean is off by, at most: sums of 10^4 doubles."""
 
-WHOLE = 0.99
+WHOLE = 0.999
 """Share of the sensor's power from which on one lag explains a log."""
 
 CLEARLY = 0.5
@@ -98,9 +98,10 @@ def measure(trial: Trial, sensor: Sensor) -> Clock | None:
     if found.explained >= WHOLE:
         return found
     wanders = wandering_lag(trial.time, *_both(trial), about=coarse)
-    if wanders is None:
+    clock = None if wanders is None else _clock(level_of(*wanders, LEAST_SLIP * trial.h))
+    if clock is None or clock.keeps_step:
         return found
-    other = _followed(trial, sensor, _clock(level_of(*wanders, LEAST_SLIP * trial.h)))
+    other = _followed(trial, sensor, clock)
     return other if 1 - other.explained < CLEARLY * (1 - found.explained) else found
 
 

@@ -45,8 +45,12 @@ def _is_lost(step: np.ndarray, same: np.ndarray, first: int, stop: int) -> bool:
     """Whether the rows from ``first`` to ``stop``, the ``same`` (k,) as the row before, lost their
     samples; ``step`` (k - 1,) lies between each row and the next.
     """
-    near = np.r_[max(first - NEAR, 1) : first, stop + 1 : min(stop + 1 + NEAR, len(same))]
-    if stop == len(same) or not len(near) or np.mean(same[near]) >= SELDOM:
+    if stop == len(same):
         return False
-    usual = np.median(step[near - 1][~same[near]])
-    return stop - first < LOST or bool(step[stop - 1] > CATCHES_UP * usual)
+    if stop - first < LOST:
+        near = np.r_[max(first - NEAR, 1) : first, stop + 1 : stop + 1 + NEAR]
+        return bool(np.mean(same[near[near < len(same)]]) < SELDOM)
+    new = np.flatnonzero(~same[1:])
+    at = np.searchsorted(new, stop - 1)
+    usual = np.median(step[np.append(new[max(at - NEAR, 0) : at], new[at + 1 : at + 1 + NEAR])])
+    return bool(step[stop - 1] > CATCHES_UP * usual)
