@@ -49,6 +49,9 @@ MEANING = {
     "mag_zeros": "the magnetometer shows zeros alone: it was not used",
     "missing_cells": "cells are empty or no numbers: these samples are unknown",
     "motion": "the sensor moves here; what looks at rest alone leaves it out, or refuses the log",
+    "mount_slipped": (
+        "sensor or markers turned in their mount then: what lies after it was turned back"
+    ),
     "mounted": "which axis points up, as the log shows it",
     "never_still": "no rest is seen: there is nothing to correct a drift by",
     "no_gravity": "the forces are without gravity, so no accelerometer's; close leaves them out",
