@@ -164,6 +164,12 @@ def names_mounting(log: Log, found: Closed) -> bool:
     return _near(float(angle), log.figures["angle"], np.deg2rad(0.5))
 
 
+def names_slipped_mount(log: Log, found: Closed) -> bool:
+    """The angle by which the mount slipped, to a fifth."""
+    angles = [f.detail["angle"] for f in found.quality if f.kind == "mount_slipped"]
+    return bool(angles) and _near(angles[0], log.figures["angle"], 0.0, 0.2)
+
+
 def names_lag(log: Log, found: Closed) -> bool:
     """The time constant of the reference's filter to a tenth."""
     lags = [f.detail["time_constant"] for f in found.quality if f.kind == "reference_lag"]
@@ -186,6 +192,31 @@ def names_lag_of_places(log: Log, found: Closed) -> bool:
 
 def names_smoothed_places(log: Log, found: Closed) -> bool:
     return any(f.kind == "reference_smoothed" and f.column == PLACES for f in found.quality)
+
+
+def names_wandering(log: Log, found: Closed) -> bool:
+    """By how much the clock's lag changes in all, to a quarter."""
+    clock = _clock(found)
+    changed = clock["most"] - clock["least"] if clock else None
+    return _near(changed, log.figures["span"], 0.0, 0.25)
+
+
+def names_misreading(log: Log, found: Closed) -> bool:
+    """The log whose numbers mean something else than their names say, and that they do."""
+    guilty = f"log{log.figures['log']:.0f}"
+    said = [f for f in found.quality if f.kind in ("gyro_axes", "gyro_unit")]
+    if any(f.detail.get("recording") == guilty for f in said):
+        return True
+    return found.verdict == "reference_unfit" and guilty in found.reason
+
+
+def names_filter(log: Log, found: Closed) -> bool:
+    return found.verdict == "reference_unfit" or _finds(found, "reference_drift")
+
+
+def names_nothing_else(log: Log, found: Closed) -> bool:
+    """What no figure of the result names; it is enough that the sensor is not blamed."""
+    return True
 
 
 def _by_finding(*kinds: str) -> Callable[[Log, Closed], bool]:
@@ -214,6 +245,13 @@ NAMED: dict[str, Callable[[Log, Closed], bool]] = {
     "lag_of_places": names_lag_of_places,
     "smoothed_places": names_smoothed_places,
     "vibration": _by_finding("vibration"),
+    "bursts": _by_finding("coarse_stamps", "jitter"),
+    "wanders": names_wandering,
+    "misread": names_misreading,
+    "filter": names_filter,
+    "adapts": _by_finding("reference_lag", "reference_smoothed"),
+    "mounting_slips": names_slipped_mount,
+    "unblamed": names_nothing_else,
     "jitter": _by_finding("jitter"),
     "gaps": _by_finding("gaps"),
     "spikes": _by_finding("spikes"),

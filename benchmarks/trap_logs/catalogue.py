@@ -4,13 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from trap_logs import clocks, flights, places, references, samples, surroundings
+from trap_logs import (
+    clocks,
+    flights,
+    frames,
+    handling,
+    mounts,
+    places,
+    references,
+    samples,
+    surroundings,
+)
 from trap_logs.log import Log
 
 Trap = Callable[..., Log]
 
 TRAPS: dict[str, Trap] = {
     trap.__name__: trap
-    for room in (clocks, references, places, surroundings, samples, flights)
+    for room in (
+        clocks,
+        references,
+        places,
+        surroundings,
+        samples,
+        flights,
+        frames,
+        handling,
+        mounts,
+    )
     for trap in room.TRAPS
 }

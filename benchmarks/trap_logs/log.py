@@ -92,3 +92,20 @@ def new_scene(
     time = np.arange(round(duration * hz)) / hz
     made = motion(rng, duration)
     return Scene(rng, hz, time, made, any_sensor(rng, thermal), np.deg2rad(rng.uniform(0.02, 0.1)))
+
+
+def beside(
+    scene: Scene,
+    sensed: Columns,
+    cause: str,
+    stamped: Callable[[np.ndarray], np.ndarray] = np.array,
+    hz: tuple[float, float] = (100.0, 240.0),
+    **truth,
+) -> Log:
+    """The case of a reference in a file of its own, of so many Hz, whose samples at the times t
+    have the stamps ``stamped(t)``.
+    """
+    rate = float(scene.rng.uniform(*hz))
+    time = np.arange(round(scene.time[-1] * rate)) / rate
+    seen: Columns = {"time": stamped(time), "ref_q": scene.attitude_at(time)}
+    return replace(scene.log(sensed, cause, **truth), references=(seen,))

@@ -21,6 +21,7 @@ from pyimu.identification.reference.place import (
     is_differentiated,
     quietened,
 )
+from pyimu.identification.reference.slipped_mount import with_one_mounting
 from pyimu.identification.reference.struck import as_struck
 from pyimu.identification.reference.turned import with_mounting
 from pyimu.model.sensor import Sensor
@@ -61,7 +62,9 @@ def aligned_trials(
 
     fitted = [t for t in map(trial, logs) if t is not None and t.count >= SHORTEST]
     apart = [t for t in map(trial, others) if t is not None and t.count >= SHORTEST]
-    clocked = with_mounting(aligned(fitted, apart, sensor, lines, known))
+    clocked = list(
+        map(with_one_mounting, with_mounting(aligned(fitted, apart, sensor, lines, known)))
+    )
     return clocked[: len(fitted)], clocked[len(fitted) :]
 
 

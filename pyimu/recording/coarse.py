@@ -1,16 +1,20 @@
 """Stamps coarser than the sample period, of rows that come evenly: each row gets a time of its own.
 
 A clock of 20 ms, or of whole seconds, gives several rows one stamp, and so does a packet of
-samples.
+samples. A bus hands over several at once, and who stamps them as they are read gives them stamps
+that follow close on one another, long after the burst before.
 """
 
 from __future__ import annotations
 
 from copy import copy
+from dataclasses import replace
 
 import numpy as np
 
+from pyimu.errors import Finding
 from pyimu.recording.clock import GAP, runs
+from pyimu.recording.recording import Recording
 
 COARSE_STAMPS = 0.01
 """Above this share of rows with the time of the row before, the stamps are coarser than the sample
@@ -23,6 +27,19 @@ HELD = 0.5
 """Share of the rows with the stamp of the row before that repeat a sensor's values, above which
 they are no samples of their own: a sensor's row comes with each of its samples."""
 
+CLOSE, FAR = 0.25, 0.98
+"""Quantiles of the steps of time by which bursts are known: the one lies within them, the other
+between them, of 2 to 50 rows each."""
+
+APART = 5.0
+"""The steps between bursts are so many times those within them at least."""
+
+WAITS = 2.0
+"""Times the scatter of the stamps of bursts about a line, within which all of a log lie."""
+
+REGULAR = 0.9
+"""Share of the bursts whose sizes are alike, but for a row: one polls evenly."""
+
 
 class EvenTimes:
     """Gives rows of one stamp even times, row by row, whatever the pieces in which they come.
@@ -32,27 +49,69 @@ class EvenTimes:
     the stamps, over a gap too. All may be off by less than a unit together. A row for which a unit
     has no place left keeps the time of the row before. ``moved`` counts rows off the period by more
     than half of it, ``count`` those whose stamp is that of the row before.
+
+    Rows of a burst, at most ``within`` [s] apart, were all sampled before the first of them was
+    read, a unit being from burst to burst, and at most ``wait`` [s] before that.
     """
 
-    def __init__(self, period: float, unit: float, start: float) -> None:
+    def __init__(
+        self, period: float, unit: float, start: float, within: float = 0.0, wait: float = 0.0
+    ) -> None:
         """``start`` [s] is the time of the first row."""
-        self.period, self.unit = period, unit
+        self.period, self.unit, self.within, self.wait = period, unit, within, wait
         self.count, self.moved = 0, 0
-        self._stamp, self._time = -np.inf, start - period
+        self._read, self._first, self._place = -np.inf, -np.inf, 0
+        self._time = start - period
 
     def add(self, stamps: np.ndarray) -> np.ndarray:
         """The times (n,) of rows with stamps (n,) that follow those that were added before."""
-        before = np.append(self._stamp, stamps[:-1])
-        self.count += int(np.count_nonzero(stamps == before))
-        time, period, unit = self._time, self.period, self.unit
+        again = np.diff(stamps, prepend=self._read) <= self.within
+        self.count += int(np.count_nonzero(again))
+        self._read = float(stamps[-1])
+        time, period = self._time, self.period
         out = []
-        for stamp in stamps.tolist():
+        for low, high in zip(*(limit.tolist() for limit in self._limits(stamps, again))):
             due = time + period
-            time = min(max(due, stamp), max(stamp + unit, time))
+            time = min(max(due, low), max(high, time))
             self.moved += abs(time - due) > period / 2
             out.append(time)
-        self._stamp, self._time = float(stamps[-1]), time
+        self._time = time
         return np.array(out)
+
+    def _limits(self, stamps: np.ndarray, again: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The earliest and the latest times (n,) of rows, those ``again`` (n,) being of the stamp
+        or the burst of the row before.
+        """
+        row = np.arange(len(stamps))
+        first = np.maximum.accumulate(np.where(again, -1, row))
+        stamp = np.where(first < 0, self._first, stamps[first])
+        place = np.where(first < 0, self._place + 1 + row, row - first)
+        self._first, self._place = float(stamp[-1]), int(place[-1])
+        if not self.within:
+            return stamp, stamp + self.unit
+        latest = stamp - self.unit + self.period * (1 + place)
+        return latest - self.wait, latest
+
+    def finding(self, **more: str) -> Finding:
+        """That rows were spread over their stamps, with ``more`` about these."""
+        detail = {"unit": self.unit, "period": self.period}
+        bursts = {"stamps": "of rows that come in bursts"} if self.within else {}
+        return Finding("coarse_stamps", "time", self.count, detail | bursts | more)
+
+
+def _within(stamps: np.ndarray) -> float:
+    """s; the longest step of time within bursts in which rows come; 0 where they come otherwise."""
+    step = np.diff(stamps)
+    if len(step) < LEAST_STAMPS:
+        return 0.0
+    close, far = np.quantile(step, (CLOSE, FAR))
+    if close == 0.0 or far < APART * close:
+        return 0.0
+    within = float(np.sqrt(close * far))
+    size = np.diff(np.flatnonzero(step > within))
+    usual = np.median(size) if len(size) else 1.0
+    alike = len(size) > 0 and np.mean(np.abs(size - usual) <= 1.0) >= REGULAR
+    return within if alike and usual >= 2.0 else 0.0
 
 
 def even_times(stamps: np.ndarray, held: np.ndarray) -> EvenTimes | None:
@@ -61,7 +120,8 @@ def even_times(stamps: np.ndarray, held: np.ndarray) -> EvenTimes | None:
 
     ``held`` (n,) flags rows in which a sensor has the values of the row before.
     """
-    again = np.append(False, np.diff(stamps) == 0)
+    within = _within(stamps)
+    again = np.append(False, np.diff(stamps) <= within)
     if len(stamps) < 2 or np.mean(again) <= COARSE_STAMPS or np.mean(held[again]) > HELD:
         return None
     first = np.flatnonzero(~again)
@@ -75,10 +135,29 @@ def even_times(stamps: np.ndarray, held: np.ndarray) -> EvenTimes | None:
     if len(known) < LEAST_STAMPS:
         return None
     period = float(np.polyfit(known - known[0], stamps[known] - stamps[known[0]], 1)[0])
-    # No row came before its stamp: the first group may be cut, and its rows be the unit's last.
-    rows = np.arange(first[LEAST_STAMPS])
-    start = float(np.max(stamps[rows] - period * rows))
-    found = EvenTimes(period, unit, min(start, float(stamps[0]) + unit))
+    late = stamps[first] - period * first
+    if within:
+        line = stamps[known] - period * known
+        start = float(late[:LEAST_STAMPS].min()) - unit + period
+        found = EvenTimes(period, unit, start, within, min(WAITS * float(np.ptp(line)), unit))
+    else:
+        # No row came before its stamp: the first group may be cut, and its rows be the unit's last.
+        start = float(late[:LEAST_STAMPS].max())
+        found = EvenTimes(period, unit, min(start, float(stamps[0]) + unit))
     tried = copy(found)
     tried.add(stamps)
     return found if tried.moved <= COARSE_STAMPS * len(stamps) else None
+
+
+def evened(recording: Recording) -> Recording:
+    """The recording at even times, with the finding ``coarse_stamps``, where its rows come in
+    bursts; else as it is.
+    """
+    even = even_times(recording.time, np.zeros(len(recording), dtype=bool))
+    if even is None:
+        return recording
+    time = even.add(recording.time)
+    kept = np.append(True, np.diff(time) > 0)
+    groups = {name: values[kept] for name, values in recording.groups.items()}
+    findings = (*recording.findings, even.finding())
+    return replace(recording, time=time[kept], findings=findings, **groups)

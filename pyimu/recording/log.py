@@ -14,6 +14,7 @@ import numpy as np
 
 from pyimu.errors import Finding, UserError, printable
 from pyimu.recording.clock import RATES, Cadence, Clock, cadence_of
+from pyimu.recording.coarse import evened
 from pyimu.recording.column_map import ForeignMap, map_of, read_map
 from pyimu.recording.columns import GROUPS
 from pyimu.recording.companions import Companion
@@ -314,7 +315,7 @@ def recording_of(given: Given, wanted: str = "sensor") -> Recording:
     anything else.
     """
     if isinstance(given, Recording):
-        return given
+        return evened(given)
     if isinstance(given, (str, os.PathLike)):
         return Log(Source.open(Path(given), None, wanted)).read()
     if not is_frame(given):

@@ -200,10 +200,8 @@ class Rows:
     def _spread(self) -> Iterator[Finding]:
         """The finding ``coarse_stamps`` of a log whose rows were spread over their stamps."""
         if self._even is not None:
-            detail = {"unit": self._even.unit, "period": self._even.period}
-            if self._single:
-                detail["stamps"] = "numbers of 32 bits"
-            yield Finding("coarse_stamps", "time", self._even.count, detail)
+            single = {"stamps": "numbers of 32 bits"} if self._single else {}
+            yield self._even.finding(**single)
 
     def batches(self) -> Iterator[tuple[np.ndarray, Values, float]]:
         """Strictly increasing time (n,), the groups by name, and the share of the file read so far.

@@ -48,6 +48,7 @@ SENTENCES = {
         "the positions were turned by {degrees:.3g} deg {way} about the vertical, into the world "
         "of the attitudes"
     ),
+    "mount_slipped": "between {first:.5g} and {last:.5g} s",
     "reference_smoothed": "as by {filter:} {seconds:.3g} s",
     "time_offset": "the column map moves the times by {offset:.12g} s",
     "rate_of_part": "the part's rate is {other_rate:.6g} Hz, the log's {rate:.6g} Hz",

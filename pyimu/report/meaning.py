@@ -7,7 +7,7 @@ MEANING = {
     "beyond_range": "samples beyond the part's range: the sensor was set to another, or is another",
     "clipping": "samples at a limit of the range: the motion was larger than the sensor can show",
     "clock_times": "dates or times of day: they count from the midnight before the first",
-    "coarse_stamps": "rows share stamps and come evenly: each got a time of its own by their rate",
+    "coarse_stamps": "rows share stamps, or come in bursts: each got its own time by their rate",
     "columns_left_out": (
         "no column of a recording has such a name, or it has no unit; --columns names those you "
         "need"
@@ -50,6 +50,9 @@ MEANING = {
     "mag_zeros": "the magnetometer shows zeros alone: it was not used",
     "missing_cells": "cells are empty or no numbers: these samples are unknown",
     "motion": "the sensor moves here; what looks at rest alone leaves it out, or refuses the log",
+    "mount_slipped": (
+        "sensor or markers turned in their mount then: what lies after it was turned back"
+    ),
     "mounted": "which axis points up, as the log shows it",
     "never_still": "no rest is seen: there is nothing to correct a drift by",
     "no_gravity": "the forces are without gravity, so no accelerometer's; close leaves them out",

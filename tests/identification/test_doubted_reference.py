@@ -221,3 +221,13 @@ def test_a_line_is_the_sensors_only_where_its_own_signal_shows_it(whose):
     assert closed.verdict == "clean", closed.report()
     assert found[0].detail["frequency"] == pytest.approx(3.1, abs=1e-3)
     assert found[0].detail["amplitude"] == pytest.approx(np.radians(0.02), rel=0.1)
+
+
+def test_a_reference_that_shakes_where_it_moves_is_no_lag_of_the_sensor():
+    """In quiet it has no noise, and a lag would take much of what it has away; the sensor's own
+    signal shows none of it.
+    """
+    found = traps.closed(traps.case("rate_of_a_shaken_unit", 27000, 0), "declared")
+    assert not found.added
+    (refused,) = [r for _, r in found.refused if r.effect == "lag"]
+    assert "own signal does not show it" in refused.reason

@@ -73,6 +73,22 @@ def test_a_log_held_apart_has_the_drift_of_its_own_clock(late):
     assert held.clock.at(TIME[-1:]) == pytest.approx(late + drift * TIME[-1], abs=2e-4)
 
 
+FAST, SLOW, SET_ANEW = 0.02 * TIME, -0.01 * TIME, 0.6 * (TIME > 50.0)
+
+
+@pytest.mark.parametrize("late", [FAST, SLOW, SET_ANEW, -SET_ANEW])
+def test_a_clock_of_another_pace_or_set_anew_is_followed(late):
+    """No single lag fits: over 2 % of two minutes the motion, of up to 2 Hz, is another. When it is
+    set anew the samples show later, to a window of 12 s; elsewhere the lag is known to a tenth of
+    a row.
+    """
+    clock = seen(log(late))
+    known = np.abs(TIME - 50.0) > 12.0 if late is not SLOW and late is not FAST else TIME > 0.0
+    inside = known & (TIME > 6.0) & (TIME < SECONDS - 6.0)
+    assert clock.explained > 0.95
+    assert np.abs(clock.at(TIME) - late)[inside].max() < 0.1 * H
+
+
 SAWTOOTH = 8e-3 * ((TIME / 40.0) % 1.0)
 
 
@@ -115,6 +131,34 @@ def test_the_instant_of_a_slip_is_that_of_the_samples(seed):
     assert np.abs(clock.at(TIME) - late)[known].max() < 0.1 * H
 
 
+def eased(start, stop):
+    x = np.clip(np.minimum(TIME - start, stop - TIME), 0.0, 1.0)
+    return 0.5 - 0.5 * np.cos(np.pi * x)
+
+
+def table():
+    """A rate (n, 3) rad/s: one axis after another, a sine and constant rates to and fro."""
+    out = np.zeros((len(TIME), 3))
+    for k in range(3):
+        sine, to, fro = (eased(40 * k + a, 40 * k + b) for a, b in ((1, 12), (14, 26), (28, 39)))
+        out[:, k] = 1.5 * sine * np.sin(1.4 * np.pi * TIME) + 1.2 * to - fro
+    return out
+
+
+def test_a_large_slip_during_an_even_turn_is_known_to_lie_there():
+    """Of the reference as it is on one side of the slip the rows on the other tell nothing, not
+    even its axes and its size; an even turn from 55 to 65 s does not show when it slips.
+    """
+    rng, turned = np.random.default_rng(1), table()
+    moved = np.where(TIME[:, None] > 61.0, np.roll(turned, 30, axis=0), turned)
+    gyro = moved + NOISE * rng.standard_normal(moved.shape)
+    rate = turned + 5 * NOISE * rng.standard_normal(moved.shape)
+    trial = gyro_trial(Recording.from_arrays("log", time=TIME, gyro=gyro, ref_rate=rate))
+    clock = placed_slips(trial, measure(trial, Sensor("gyro")), Sensor("gyro"))
+    ((first, last),) = clock.unsure
+    assert first < 61.0 < last < 66.0
+
+
 @pytest.mark.long
 def test_a_level_that_stands_still_is_rarely_said_to_wander():
     """Twice the gain of the walk is half chance zero and half chi-square on one degree (Self and
@@ -153,7 +197,20 @@ def levels(shape, count, seed):
     """What is found behind measurements of ``shape`` every 2.5 s with white errors."""
     rng = np.random.default_rng(seed)
     drawn = (shape(rng) + SCATTER * rng.standard_normal(len(WINDOWS)) for _ in range(count))
-    return [level_of(WINDOWS, values, np.full(len(WINDOWS), SCATTER)) for values in drawn]
+    return [level_of(WINDOWS, values, np.full(len(WINDOWS), SCATTER), 2e-3) for values in drawn]
+
+
+def slewed(rng):
+    return 1e-3 * np.clip(0.5 * (WINDOWS - 40.0), 0.0, 8.0)
+
+
+def test_a_clock_that_is_slewed_is_followed():
+    """As a daemon takes an offset out: 8 ms at 500 ppm. A line leaves 1.3 ms of it, and steps below
+    a fifth of a row are none: a walk follows it, as do a few steps, to their own errors.
+    """
+    for one in levels(slewed, 20, 2):
+        left = np.interp(WINDOWS, one.time, one.value) - slewed(None)
+        assert np.sqrt(np.mean(left**2)) < 2 * SCATTER
 
 
 def walk(rng):

@@ -5,8 +5,8 @@ import pandas as pd
 import pytest
 
 from pyimu.recording.coarse import LEAST_STAMPS, EvenTimes, even_times
-from pyimu.recording.log import open_log, read_recording
-from pyimu.recording.recording import join
+from pyimu.recording.log import open_log, read_recording, recording_of
+from pyimu.recording.recording import Recording, join
 
 H, ROWS = 0.01, 6000
 TIME = H * np.arange(ROWS)
@@ -90,3 +90,41 @@ def test_even_times_do_not_depend_on_the_pieces(tmp_path, monkeypatch):
     parts, even = np.array_split(cut(TIME, 0.016), 9), EvenTimes(H, 0.016, 0.0)
     once = EvenTimes(H, 0.016, 0.0).add(cut(TIME, 0.016))
     np.testing.assert_array_equal(np.concatenate([even.add(p) for p in parts]), once)
+
+
+def in_bursts(size, seed=4):
+    """Stamps of rows that a bus hands over ``size`` at a time, read 0.2 ms apart 2 to 5 ms after
+    the last of them was sampled.
+    """
+    row, rng = np.arange(ROWS), np.random.default_rng(seed)
+    burst = row // size
+    wait = rng.uniform(0.002, 0.005, burst[-1] + 1)[burst]
+    return H * (burst * size + size - 1) + wait + 2e-4 * (row % size)
+
+
+@pytest.mark.parametrize("size", [2, 5, 8, 32])
+def test_rows_that_come_in_bursts_get_the_times_before_they_were_read(size):
+    """By what the bus waits at most all are late together, and by its scatter of 3 ms each."""
+    found = spread(in_bursts(size))
+    off = found - TIME
+    assert off.min() > 0.0 and off.max() < 0.0061
+    assert np.abs(np.diff(found) - H).max() < H / 2
+
+
+def test_stamps_that_scatter_and_rows_that_are_lost_are_no_bursts():
+    rng = np.random.default_rng(5)
+    scattered = TIME + np.clip(0.3 * rng.standard_normal(ROWS), -0.45, 0.45) * H
+    assert spread(scattered) is None and spread(TIME[rng.random(ROWS) > 0.1]) is None
+
+
+def test_bursts_do_not_depend_on_the_pieces_nor_on_where_they_come_from(tmp_path):
+    stamps = in_bursts(6)
+    once = spread(stamps)
+    even = even_times(stamps, np.zeros(ROWS, dtype=bool))
+    pieces = np.concatenate([even.add(p) for p in np.array_split(stamps, 11)])
+    np.testing.assert_array_equal(pieces, once)
+    read = read_recording(written(tmp_path / "log.parquet", stamps))
+    given = recording_of(Recording.from_arrays("log", time=stamps, gyro=np.zeros((ROWS, 3))))
+    for found in (read, given):
+        assert found.sample_rate == pytest.approx(100.0, rel=1e-3) and len(found.segments) == 1
+        assert "coarse_stamps" in {f.kind for f in found.findings}

@@ -29,7 +29,8 @@ from pyimu.identification.reference.moving import (
     turned_onto,
 )
 from pyimu.identification.reference.place import placed
-from pyimu.identification.reference.track import Level, level_of
+from pyimu.identification.reference.track import LEAST, Level, level_of
+from pyimu.identification.reference.wandering import wandering_lag
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
@@ -71,6 +72,12 @@ CHI2_MEDIAN = 0.4549
 ROUNDING = 1e-12
 """Share of a constant that its mean is off by, at most: sums of 10^4 doubles."""
 
+WHOLE = 0.999
+"""Share of the sensor's power from which on one lag explains a log."""
+
+CLEARLY = 0.5
+"""Of what one lag leaves unexplained, what lags that change from window to window may leave."""
+
 ROUNDS = 5
 
 
@@ -86,15 +93,33 @@ def measure(trial: Trial, sensor: Sensor) -> Clock | None:
         or not moves(trial)
     ):
         return None
-    clock = Clock(trial.time[:1], np.array([_coarse(trial)]), 0.0, 0.0)
+    coarse = _coarse(trial)
+    found = _followed(trial, sensor, Clock(trial.time[:1], np.array([coarse]), 0.0, 0.0))
+    if found.explained >= WHOLE:
+        return found
+    wanders = wandering_lag(trial.time, *_both(trial), about=coarse)
+    clock = None if wanders is None else _clock(level_of(*wanders, LEAST_SLIP * trial.h))
+    if clock is None or clock.keeps_step:
+        return found
+    other = _followed(trial, sensor, clock)
+    return other if 1 - other.explained < CLEARLY * (1 - found.explained) else found
+
+
+def _followed(trial: Trial, sensor: Sensor, clock: Clock) -> Clock:
+    """The clock that the windows of a trial show, from a coarse one on."""
     for _ in range(ROUNDS):
         seen = _windows(placed(shifted(trial, clock)), sensor)
         if seen is None:
             explained = explained_by(placed(shifted(trial, clock)))
             return replace(clock, std=np.inf, explained=explained)
         time, late, std = seen
-        level = level_of(time, late + clock.at(time), std, LEAST_SLIP * trial.h)
-        before, clock = clock, _clock(level)
+        before = clock
+        if clock.keeps_step or len(time) >= LEAST:
+            clock = _clock(level_of(time, late + clock.at(time), std, LEAST_SLIP * trial.h))
+        else:
+            # Too few to show how it changes: that was seen before.
+            level = level_of(time, late, std, np.inf)
+            clock = replace(clock, late=clock.late + float(level.value.mean()), std=level.std)
         if np.abs(clock.at(time) - before.at(time)).max() < 0.1 * clock.std:
             break
     return replace(clock, explained=explained_by(placed(shifted(trial, clock))))
@@ -192,11 +217,8 @@ def _coarse(trial: Trial) -> float:
     0 where that is hardly better than without a lag; of a motion that repeats, with which many
     correlate alike, the shortest.
     """
-    axes = list(trial.axes)
-    counted = marked(trial.row_segments, len(trial.time))
-    rate = trial.u[:, OWN[trial.kind]][:, axes]
-    x = np.linalg.norm(rate, axis=1)
-    y = np.linalg.norm(trial.y[:, axes] - np.median(trial.y[:, axes], axis=0), axis=1)
+    x, y, counted = _both(trial)
+    x, y = np.linalg.norm(x, axis=1), np.linalg.norm(y - np.median(y, axis=0), axis=1)
     most = round(min(FARTHEST, (trial.time[-1] - trial.time[0]) / 4) / trial.h)
     lags = np.arange(-most, most + 1)
     both = counted.astype(float)
@@ -206,6 +228,13 @@ def _coarse(trial: Trial) -> float:
     alike = peaks[1 - r[peaks] <= REPEATS * (1 - r.max())]
     best = int(min(alike, key=lambda i: abs(lags[i]), default=np.argmax(r)))
     return float(lags[best] * trial.h) if 1 - r[best] < 0.5 * (1 - r[most]) else 0.0
+
+
+def _both(trial: Trial) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Rates (n, axes) of reference and sensor, and the rows (n,) in which both are known."""
+    axes = list(trial.axes)
+    rate = trial.u[:, OWN[trial.kind]][:, axes]
+    return rate, trial.y[:, axes], marked(trial.row_segments, len(trial.time))
 
 
 def _windows(trial: Trial, sensor: Sensor):

@@ -73,25 +73,33 @@ def _with_slips(clock: Clock, slips: list[Slip]) -> Clock:
 def _left_by_level(
     trial: Trial, clock: Clock, levels: np.ndarray, sensor: Sensor
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Times (m,) of the rows in the band, and squares (levels, m) of what the reference leaves
-    there, being later all the time by one of the ``levels`` than the clock is before it slips.
+    """Times (m,) of the rows in the band, and squares (levels, m) of what the reference, turned and
+    scaled as it is seen, leaves there, being later all the time by one of the ``levels`` than the
+    clock is before it slips.
     """
     ends = clock.time[[0, -1]]
     line = clock.late[0] + clock.skew[0] * (ends - ends[0])
     moved = [shifted(trial, replace(clock, time=ends, late=line + v)) for v in levels]
-    same = np.all([marked(t.segments, len(t.time)) for t in moved], axis=0)
-    band_hz = rebanded(shifted(trial, clock)).band_hz
-    moved = [replace(t, segments=runs(same), band_hz=band_hz) for t in moved]
-    return band_time(moved[0]), np.array([_left(t, sensor) for t in moved])
+    as_seen = shifted(trial, clock)
+    same = np.all([marked(t.segments, len(t.time)) for t in (as_seen, *moved)], axis=0)
+    band_hz = rebanded(as_seen).band_hz
+    as_seen, *moved = (replace(t, segments=runs(same), band_hz=band_hz) for t in (as_seen, *moved))
+    # Of a reference that is late by one of the levels all the time most rows may tell nothing.
+    known, y = _known(as_seen, sensor)
+    seen = moving_rows(as_seen)
+    gain = np.linalg.lstsq(known[seen], y[seen])[0]
+    left = [np.sum((y - _known(t, sensor)[0] @ gain) ** 2, axis=1) for t in moved]
+    return band_time(as_seen), np.array(left)
 
 
-def _left(trial: Trial, sensor: Sensor) -> np.ndarray:
-    """Squares (m,) of what the reference, turned and scaled, leaves of the rows in the band."""
+def _known(trial: Trial, sensor: Sensor) -> tuple[np.ndarray, np.ndarray]:
+    """A constant beside what the reference shows (m, 1 + axes), and what the sensor does (m, axes),
+    in the band.
+    """
     axes = list(trial.axes)
     own = through_dynamics(sensor, trial.u[:, OWN[trial.kind]], trial.segments, trial.h)
     x, y = (in_band(trial, v[:, axes]) for v in (own, trial.y))
-    known, seen = np.column_stack([np.ones(len(x)), x]), moving_rows(trial)
-    return np.sum((y - known @ np.linalg.lstsq(known[seen], y[seen])[0]) ** 2, axis=1)
+    return np.column_stack([np.ones(len(x)), x]), y
 
 
 def _spans(

@@ -70,7 +70,8 @@ def level_of(time: np.ndarray, values: np.ndarray, std: np.ndarray, least: float
             level = _along(steps, time, values, unit)
             if all(abs(s.size) >= least for s in level.steps):
                 return level
-            gain = 0.0
+            # What follows such steps is no walk; what a line does not is more than these.
+            gain = gain if gain > steady + WANDERS else 0.0
         if steady > max(gain, WANDERS):
             return _along(drift, time, values, unit)
     elif len(time) >= LEAST_LINE:

@@ -26,7 +26,12 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
     old = tried.current
     name = chosen.screened.effect
     is_line = CATALOGUE[name].is_line and name not in old.sensor.values
-    if is_line_of_reference(chosen.fit, name) if is_line else is_of_reference(old, chosen.fit):
+    damps = CATALOGUE[name].delay is not None
+    if (
+        is_line_of_reference(chosen.fit, name)
+        if is_line
+        else is_of_reference(old, chosen.fit, damps=damps)
+    ):
         return chosen, OF_REFERENCE
     if chosen.screened.effect not in old.sensor.values:
         chosen, reason = _shown(old, chosen, gate)

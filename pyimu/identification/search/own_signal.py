@@ -19,6 +19,7 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.high_differences import sensor_white
 from pyimu.identification.fit.inputs import Inputs, own_rate, reference_input
 from pyimu.identification.fit.noise_fit import declared_variances
+from pyimu.identification.fit.reference_noise import MEASURED
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import OWN
@@ -38,13 +39,19 @@ class _Sums:
         return _Sums(self.own + other.own, self.effect + other.effect, self.seen + other.seen)
 
 
-def is_of_reference(old: Fit, new: Fit, certain: float = CERTAIN, seed: int = 1) -> bool:
+def is_of_reference(
+    old: Fit, new: Fit, certain: float = CERTAIN, seed: int = 1, damps: bool = False
+) -> bool:
     """Whether what a ``new`` model explains beyond an ``old`` one is the noise of a doubted
     reference: by the sensor's own signal nothing is likelier than a true effect, by more than
     ``certain`` [nat].
+
+    One that ``damps`` the reference takes its noise away as it does the motion: a reference that
+    was measured is doubted then whatever it seems to have.
     """
     rng = np.random.default_rng(seed)
-    total = sum((_sums(old, new, t, rng) for t in new.trials if t.doubt), _Sums())
+    trials = [t for t in new.trials if t.doubt or (damps and t.reference in MEASURED)]
+    total = sum((_sums(old, new, t, rng) for t in trials), _Sums())
     if total.own <= 0.0:
         return False
     nothing = (0.5 * total.effect - total.seen) * total.effect / total.own

@@ -8,16 +8,23 @@ from functools import partial
 import numpy as np
 from scipy.spatial.transform import Rotation, RotationSpline
 
+from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.jumps import jumps
 from pyimu.recording.reference.nodes import own_samples
+from pyimu.recording.reference.repeats import without_repeats
 from pyimu.recording.reference.sampling import through
 from pyimu.recording.reference.track import Track, fresh
 
 
 def attitude_track(source: Recording) -> Track:
     """The samples of ``ref_q`` that can be differentiated."""
-    return Track(source.time, fresh(source.ref_q), partial(_steps, source.ref_q))
+    rows = fresh(source.ref_q)
+    own = without_repeats(source.ref_q, rows)
+    track = Track(source.time, own, partial(_steps, source.ref_q))
+    if len(own) < len(rows):
+        track.findings.append(Finding("repeated_samples", "ref_q", len(rows) - len(own)))
+    return track
 
 
 def cut_at_jumps(track: Track, source: Recording, recording: Recording) -> None:

@@ -177,7 +177,8 @@ class Track:
             "first": float(time.min()),
             "last": float(time.max()),
         }
-        for f in self.findings:
+        told = [f for f in self.findings if f.kind == "reference_spikes"]
+        for f in told:
             count += f.count
             detail = {
                 "left_out": detail["left_out"] + f.detail["left_out"],
@@ -185,4 +186,5 @@ class Track:
                 "first": min(detail["first"], f.detail["first"]),
                 "last": max(detail["last"], f.detail["last"]),
             }
-        self.findings = [Finding("reference_spikes", "", count, detail)]
+        others = [f for f in self.findings if f not in told]
+        self.findings = [*others, Finding("reference_spikes", "", count, detail)]
