@@ -150,7 +150,7 @@ def _drawn(
     for _ in range(trial.derivatives):
         draw = np.gradient(draw, axis=0)
     whole = draw.var(axis=0)
-    draw = draw if trial.place is None else trial.place.below(draw, trial.segments)
+    draw = draw if trial.place is None else trial.place.as_the_force(draw, trial.segments)
     seen = in_band(trial, draw).var(axis=0) if trial.count else np.ones(3)
     wanted = np.isin(np.arange(3), trial.axes) & (seen > 0.0)
     scale = np.sqrt(np.where(wanted, variance / np.where(seen > 0.0, seen, 1.0), 0.0))

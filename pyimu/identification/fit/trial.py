@@ -331,7 +331,9 @@ def _place_trial(recording: Recording, latitude: float | None) -> Trial | None:
         band_limit=force.band_limit,
         free_rotation=True,
         findings=force.findings,
-        place=Place.of(u, recording.time, force.gravity, force.gravity_std),
+        place=Place.of(
+            u, recording.time, force.gravity, force.gravity_std, shown_hz=force.shown_hz
+        ),
     )
 
 

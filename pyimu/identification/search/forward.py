@@ -209,8 +209,8 @@ def _first(start: Fit, believed: bool) -> Fit:
 
 
 def _in_place(start: Fit) -> Fit:
-    """A model with what belongs to its logs alone fitted, where a force acts at a place to be found:
-    what an arm and a heading leave of the motion is no noise of a reference.
+    """A model with what belongs to its logs alone fitted, where a force acts at a place that is to
+    be found: what an arm and a heading leave of the motion is no noise of a reference.
     """
     if all(t.place is None for t in start.trials):
         return start
