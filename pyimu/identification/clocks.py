@@ -11,7 +11,7 @@ from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import clock_of
 from pyimu.identification.search.forward import Investigation
-from pyimu.recording.reference.unfiltered_places import LATE
+from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
 from pyimu.recording.reference.unlagged import HIGHEST, LAG
 from pyimu.recording.reference.unsmoothed import SMOOTHED
 from pyimu.report.numbers import joined, number
@@ -40,8 +40,9 @@ def taken_out(found: Mapping[str, Investigation], heading: Heading) -> str:
 
 
 def undone(findings: Sequence[Finding]) -> str:
-    """Which references, or positions of them, lag as behind a filter, or were smoothed, and which
-    positions are late beside attitudes; nothing where none is.
+    """Which references, or positions of them, lag as behind a filter, or were smoothed, which
+    positions are late beside attitudes, and which have a vertical that is not z; nothing where none
+    is.
     """
     by_kind = {
         (kind, what): [
@@ -80,6 +81,11 @@ def _late(found: list[dict], what: str) -> str:
     return f"{_of(what, found)} are {up_to}{_time(abs(most))} {side} beside the attitudes"
 
 
+def _sideways(found: list[dict], what: str) -> str:
+    are = "is" if len(found) == 1 else "are"
+    return f"{_of(what, found)} {are} in a world in which {found[0]['way']}"
+
+
 def _of(what: str, found: list[dict]) -> str:
     """The references of findings, or the positions of these."""
     of = f"the {what} of " if what and len(found) == 1 else f"{what} of " if what else ""
@@ -93,7 +99,12 @@ def _of(what: str, found: list[dict]) -> str:
 PLACES = {"ref_east": "positions", "ref_velocity": "velocities"}
 """By the columns of findings, what of a reference they are about, unless its attitudes or rates."""
 
-SAID: dict[str, Callable[[list[dict], str], str]] = {LAG: _lagging, SMOOTHED: _smooth, LATE: _late}
+SAID: dict[str, Callable[[list[dict], str], str]] = {
+    LAG: _lagging,
+    SMOOTHED: _smooth,
+    LATE: _late,
+    SIDEWAYS: _sideways,
+}
 """What is said of the findings of each kind."""
 
 

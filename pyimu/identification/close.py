@@ -37,6 +37,7 @@ from pyimu.identification.reference.positions import positions_wanted, unshown
 from pyimu.identification.reference.turned import with_turned_force
 from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.reference.unfiltered import unfiltered_logs, with_sharp_places
+from pyimu.identification.reference.upright import with_upright_places
 from pyimu.identification.result import Closed
 from pyimu.identification.search.ceiling import CEILING
 from pyimu.identification.search.forward import Investigation, investigate
@@ -153,8 +154,11 @@ def _on_time(
     if unfiltered is not None:
         logs, others = unfiltered
         turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
-    clocks = clocks_of(turning)
-    placed = ([with_sharp_places(r, clocks, latitude) for r in some] for some in (logs, others))
+    clocks, both = clocks_of(turning), [*turning[0], *turning[1]]
+    placed = (
+        [with_sharp_places(with_upright_places(r, both), clocks, latitude) for r in some]
+        for some in (logs, others)
+    )
     return *placed, turning
 
 

@@ -10,7 +10,9 @@ from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 import pyimu
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.place import UNKNOWN, Place
+from pyimu.identification.fit.trial import gyro_trial
 from pyimu.identification.reference.place import BEYOND
+from pyimu.identification.reference.upright import with_upright_places
 from pyimu.identification.trials import BAND_SHARE
 from pyimu.recording.recording import Recording
 
@@ -210,3 +212,39 @@ def test_what_was_differentiated_is_no_noisier_about_the_ends_of_a_stretch():
     variance = np.mean(rows**2, axis=1)
     middle = variance[len(rows) // 2]
     np.testing.assert_allclose(variance[[0, -1]] / middle, 1.0, atol=5 * np.sqrt(4 / stretches))
+
+
+Y_UP = Rotation.from_euler("x", -np.pi / 2)
+
+
+def sideways(log, world=Y_UP):
+    """The log with attitudes and positions as an optical system of another vertical has them."""
+    places = world.apply(np.column_stack([getattr(log, n) for n in PLACES]))
+    attitude = world * Rotation.from_quat(log.ref_q, scalar_first=True)
+    q = attitude.as_quat(scalar_first=True)
+    return replace(log, ref_q=q, **dict(zip(PLACES, places.T, strict=True)))
+
+
+def test_attitudes_and_positions_with_y_up_are_turned_level():
+    """As they were but for their heading, which nothing measures; and not the positions of
+    attitudes whose z points down, which may be in another world than these.
+    """
+    log = hand(minutes=1.0)
+    trials = [gyro_trial(sideways(log))]
+    level = with_upright_places(sideways(log), trials).reference
+    (found,) = level.findings
+    assert (found.kind, found.detail["way"]) == ("reference_sideways", "y points up")
+    was, now = (Rotation.from_quat(r.ref_q, scalar_first=True) for r in (log, level))
+    about = now * was.inv()
+    np.testing.assert_allclose(about.apply([0.0, 0.0, 1.0])[:, 2], 1.0, atol=1e-12)
+    np.testing.assert_allclose(level.ref_up, log.ref_up, atol=1e-12)
+    for other in (log, sideways(log, NED)):
+        assert with_upright_places(other, [gyro_trial(other)]) is other
+
+
+@pytest.mark.long
+def test_an_accelerometer_beside_cameras_with_y_up_is_examined():
+    closed = pyimu.close(sideways(hand(arm=(0.05, -0.03, 0.1))))
+    assert closed.verdict == "clean" and not closed.not_examined, closed.report()
+    assert "in a world in which y points up: undone" in closed.report()
+    assert place_of(closed)[1]["kind"] == "position"

@@ -1,13 +1,17 @@
 """Samples where an output stops, in rows that a band makes of many."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from loop_cases import inputs, noise, trial
 
 from pyimu.identification.fit.columns import in_band, residual
+from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.limited import with_limited
+from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.trial import counted, repeated
 from pyimu.identification.search.as_sampled import ceiling_of
 from pyimu.identification.search.forward import investigate
@@ -71,6 +75,18 @@ def test_a_clipped_gyro_beside_an_attitude_has_its_own_scale_factor_and_no_lag(s
         assert abs(found[key.index] - scale) < 4.0 * inv.after.std[key]
         assert inv.after.std[key] < 5e-4
     assert all(t.limited is not None for t in (*inv.after.trials, *inv.held))
+
+
+def test_a_level_is_known_to_the_step_of_the_samples():
+    """It is anywhere within 0.5 mrad/s: step / sqrt(12), and not to the last digit."""
+    made, levels, _ = clipped()
+    step = 5e-4
+    rounded = replace(made, y=step * np.round(made.y / step))
+    sensor = Sensor("gyro", {"scale_factor": {"s": np.zeros(3)}})
+    fitted = fit(begin(sensor, FREE, [rounded]))
+    read = ceiling_of(fitted, [])
+    np.testing.assert_allclose(read.std, step / np.sqrt(12.0), rtol=1e-6)
+    assert np.all(np.abs(read.values - levels) < 2.0 * read.std)
 
 
 def test_a_gyro_that_stops_nowhere_shows_no_level():

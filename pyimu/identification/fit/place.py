@@ -9,20 +9,16 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.signal import butter, sosfiltfilt
 from scipy.spatial.transform import Rotation
 
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS
+from pyimu.recording.reference.filters import below
 from pyimu.recording.reference.force import arm_forces
 
 FAR = 10.0
 """m; standard deviation of how far along an axis a sensor may be from the point that a reference
 tracks: within a vehicle, anywhere."""
-
-ORDER, PERIODS = 8, 12
-"""Of the low-pass, and how many half periods of its cutoff it is led in over; run both ways it
-takes 3e-5 of what is an octave below its cutoff."""
 
 HEADED = 0.05
 """rad; standard deviation of the heading of attitudes against positions, once it is about found."""
@@ -44,7 +40,7 @@ class Place:
     ``forces`` (5, 3, n) is what a metre along each axis of the arm, a m/s^2 of gravity, and a
     radian of heading add to the reference force in its own body axes, ``time`` (n,) s when;
     ``across`` (n, 3) is the horizontal force that moves the body, less its gravity. The force has
-    nothing above ``cutoff`` Hz.
+    nothing above ``cutoff`` Hz, and of what was differentiated nothing above ``shown_hz``.
     """
 
     gravity: float
@@ -53,10 +49,16 @@ class Place:
     across: np.ndarray
     time: np.ndarray
     cutoff: float = np.inf
+    shown_hz: float = np.inf
 
     @classmethod
     def of(
-        cls, u: np.ndarray, time: np.ndarray, gravity: float = 0.0, gravity_std: float = 0.0
+        cls,
+        u: np.ndarray,
+        time: np.ndarray,
+        gravity: float = 0.0,
+        gravity_std: float = 0.0,
+        shown_hz: float = np.inf,
     ) -> Place:
         """By inputs (n, N_INPUT) that have the reference force, the body's rate and attitude."""
         # What stays zero is never written to, so that it takes no memory.
@@ -70,12 +72,12 @@ class Place:
             force = u[known, OWN["accel"]]
             across[known] = force - np.sum(force * up[known], axis=1)[:, None] * up[known]
             forces[GRAVITY], forces[HEADING] = up.T, np.cross(up, across).T
-        return cls(gravity, gravity_std, forces, across, time)
+        return cls(gravity, gravity_std, forces, across, time, shown_hz=shown_hz)
 
     def by(self, u: np.ndarray) -> Place:
         """The same beside other inputs (n, N_INPUT)."""
-        other = Place.of(u, self.time, self.gravity, self.gravity_std)
-        return replace(other, cutoff=self.cutoff)
+        known = self.gravity, self.gravity_std, self.shown_hz
+        return replace(Place.of(u, self.time, *known), cutoff=self.cutoff)
 
     def part(self, start: int, stop: int) -> Place:
         rows = slice(start, stop)
@@ -90,21 +92,22 @@ class Place:
         return (np.cos(angle) - 1.0) * self.across + np.sin(angle) * self.forces[HEADING].T
 
     def below(self, values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
-        """What values (n, k) have below the cutoff, in each of the ``segments``.
-
-        Beyond a segment's ends they are mirrored, not turned about the last of them: what was
-        differentiated is mostly noise from row to row, and all that is about an end would go with
-        the noise of that one row.
-        """
-        out, nyquist = np.array(values), 0.5 / float(np.median(np.diff(self.time)))
-        if self.cutoff >= nyquist:
-            return out
-        low = butter(ORDER, self.cutoff / nyquist, output="sos")
-        for a, b in segments:
-            room = min(b - a - 1, round(PERIODS * nyquist / self.cutoff))
-            if room > 0:
-                out[a:b] = sosfiltfilt(low, values[a:b], axis=0, padtype="even", padlen=room)
+        """What values (n, k) have below the cutoff, in each of the ``segments``."""
+        out = np.array(values)
+        if self.cutoff < 0.5 / (h := float(np.median(np.diff(self.time)))):
+            for a, b in segments:
+                out[a:b] = below(values[a:b], 2.0 * h * self.cutoff)
         return out
+
+    def shown(self, values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
+        """What of values (n, k) in the world's axes positions or velocities show."""
+        return replace(self, cutoff=self.shown_hz).below(values, segments)
+
+    def as_the_force(self, values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
+        """What is left of values (n, k) that were differentiated once they have gone through all
+        that the force has, before it was looked up and since.
+        """
+        return self.below(self.shown(values, segments), segments)
 
     @property
     def std(self) -> np.ndarray:

@@ -70,8 +70,8 @@ def with_reference_noise(
     rng = np.random.default_rng(seed)
 
     def draw(trial: Trial) -> Trial:
-        found = _drawn(trial, variance, rng)
-        return _with_spectrum(found, _spectrum_of(trial, spectra), rng)
+        found, white = _drawn(trial, variance, rng)
+        return _with_spectrum(found, _spectrum_of(trial, spectra), white, rng)
 
     trials, apart = tuple(map(draw, fit.trials)), list(map(draw, held))
     if fit.free:
@@ -134,26 +134,31 @@ def _in_quiet(fit: Fit, axis: int) -> float:
     return quiet(found, REST) / lowness(found, REST) if len(found) else 0.0
 
 
-def _drawn(trial: Trial, variance: np.ndarray, rng: np.random.Generator) -> Trial:
+def _drawn(
+    trial: Trial, variance: np.ndarray, rng: np.random.Generator
+) -> tuple[Trial, np.ndarray]:
     """The trial with a draw (n, 3) of what white noise of an attitude, or of a position, becomes
-    once it is differentiated, of a ``variance`` (3,) in its band.
+    once it is differentiated, of a ``variance`` (3,) in its band; and the variance (3,) that the
+    draw had in its rows before it went through the low-pass of its force.
 
     It is no more than the high differences of the reference show: its band hides from the sensor
     what is left beyond.
     """
     if not _is_derived(trial):
-        return replace(trial, noise=np.zeros(trial.y.shape))
+        return replace(trial, noise=np.zeros(trial.y.shape)), np.zeros(3)
     draw = rng.standard_normal(trial.y.shape)
     for _ in range(trial.derivatives):
         draw = np.gradient(draw, axis=0)
-    draw = draw if trial.place is None else trial.place.below(draw, trial.segments)
+    whole = draw.var(axis=0)
+    draw = draw if trial.place is None else trial.place.as_the_force(draw, trial.segments)
     seen = in_band(trial, draw).var(axis=0) if trial.count else np.ones(3)
     wanted = np.isin(np.arange(3), trial.axes) & (seen > 0.0)
     scale = np.sqrt(np.where(wanted, variance / np.where(seen > 0.0, seen, 1.0), 0.0))
     most = roughness(trial, trial.u[:, OWN[trial.kind]]) / np.maximum(
         roughness(trial, draw), 1e-300
     )
-    return replace(trial, noise=draw * np.minimum(scale, most))
+    scale = np.minimum(scale, most)
+    return replace(trial, noise=draw * scale), whole * scale**2
 
 
 def _spectra(fit: Fit, linears: Sequence[Linear]) -> dict[str, list[Spectrum]]:
@@ -249,15 +254,20 @@ def _spectrum_of(trial: Trial, spectra: Mapping[str, list[Spectrum]]) -> Sequenc
     return next(iter(spectra.values()), ())
 
 
-def _with_spectrum(trial: Trial, spectra: Sequence[Spectrum], rng: np.random.Generator) -> Trial:
-    """The trial with what its noise has by its spectrum beside what it was drawn with."""
+def _with_spectrum(
+    trial: Trial, spectra: Sequence[Spectrum], white: np.ndarray, rng: np.random.Generator
+) -> Trial:
+    """The trial with what its noise has by its spectrum beside what it was drawn with, which was of
+    a variance ``white`` (3,) before any low-pass.
+    """
     if not any(len(s.psd) for s in spectra):
         return trial
     noise = np.array(trial.noise)
     for i, spectrum in enumerate(spectra):
         if not len(spectrum.psd):
             continue
-        more = spectrum.beyond(of_white_attitude(trial, spectrum.frequency, noise[:, i].var()))
+        known = of_white_attitude(trial, spectrum.frequency, float(white[i]))
+        more = spectrum.beyond(known)
         if more.any():
             noise[:, i] += drawn(trial, spectrum.frequency, more, rng)
     errors = tuple(s.error if s.variance > 0.0 else 0.0 for s in spectra)

@@ -30,7 +30,7 @@ from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.force import ORDER, reference_force
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.stamps import at_times
-from pyimu.recording.reference.unfiltered_places import LATE
+from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
 from pyimu.recording.reference.unlagged import LAG
 from pyimu.recording.reference.unsmoothed import SMOOTHED
 
@@ -331,7 +331,9 @@ def _place_trial(recording: Recording, latitude: float | None) -> Trial | None:
         band_limit=force.band_limit,
         free_rotation=True,
         findings=force.findings,
-        place=Place.of(u, recording.time, force.gravity, force.gravity_std),
+        place=Place.of(
+            u, recording.time, force.gravity, force.gravity_std, shown_hz=force.shown_hz
+        ),
     )
 
 
@@ -427,7 +429,7 @@ def _trial(
     if repeats.any():
         findings += (Finding("repeated_samples", kind, int(repeats.sum())),)
     other = () if recording.reference is None else recording.reference.findings
-    findings += tuple(f for f in other if f.kind in (*OWN_LAG, SMOOTHED, LATE))
+    findings += tuple(f for f in other if f.kind in (*OWN_LAG, SMOOTHED, LATE, SIDEWAYS))
     return Trial(
         recording.name,
         kind,

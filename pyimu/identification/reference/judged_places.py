@@ -97,6 +97,8 @@ class PlacesJudge(Judge):
         if one is not None:
             for a, b in self.whole.segments:
                 world[a:b] = one.seen(world[a:b], self.whole.h, None)
+        # Of positions nothing is kept that their noise hides.
+        world = self.whole.place.shown(world, self.whole.segments)
         for _ in range(0 if one == TOGETHER else ROUNDS):
             lead = self._early(world)
             self.leads[one] += lead

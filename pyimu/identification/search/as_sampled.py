@@ -18,7 +18,13 @@ from pyimu.identification.fit.limited import with_limited
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.candidates import equivalent, scanned
-from pyimu.identification.search.ceiling import CEILING, EQUAL, has_samples, is_reached, piled
+from pyimu.identification.search.ceiling import (
+    CEILING,
+    has_samples,
+    is_reached,
+    piled,
+    read_to,
+)
 from pyimu.identification.search.screen import FALSE_ALARM, PENALTY, SHARE
 from pyimu.identification.search.threshold import THRESHOLD, zeros
 from pyimu.model.catalogue import CATALOGUE, read_off
@@ -112,11 +118,12 @@ def ceiling_of(fitted: Fit, held: Sequence[Trial]) -> Read | None:
     found = _looked_for(fitted, CEILING)
     if found is None or fitted.is_reduced:
         return None
-    tops = {i: piled([*fitted.trials, *held], i) for i in fitted.trials[0].axes}
+    every = [*fitted.trials, *held]
+    tops = {i: piled(every, i) for i in fitted.trials[0].axes}
     return _read(
         found,
         {
-            i: (top, EQUAL * top, gain)
+            i: (top, read_to(every, i, top), gain)
             for i, (top, gain) in tops.items()
             if gain > PENALTY and is_reached(fitted, held, i, top)
         },

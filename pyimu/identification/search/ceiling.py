@@ -134,6 +134,14 @@ def piled(trials: Sequence[Trial], axis: int) -> tuple[float, float]:
     return top, (count - 1) * float(np.log(max(room, 1.0)))
 
 
+def read_to(trials: Sequence[Trial], axis: int, level: float) -> float:
+    """Standard error of a level that was read off samples of an axis: it is anywhere within their
+    step.
+    """
+    step = resolution(np.concatenate([t.y[:, axis] for t in trials]))
+    return max(step / np.sqrt(12.0), EQUAL * level)
+
+
 def is_reached(fitted: Fit, held: Iterable[Trial], axis: int, top: float) -> bool:
     """Whether the input of most samples of size ``top`` is as large by the model, too: those that
     stand for a fault of the log may come at any time.
@@ -183,12 +191,13 @@ def at_samples(fitted: Fit) -> Fit:
         sides = [_beyond(unlimited, t, fitted.states[t.name], i, levels[i]) for t in fitted.trials]
         joined = [np.concatenate(values) for values in zip(*sides, strict=True)]
         found = [(float(np.median(v)), _median_std(v)) for v in joined if len(v) >= LEAST_AT_LEVEL]
-        if found:
-            levels[i], std[Coefficient(effect, parameter, (i,))] = max(found)
-            continue
-        top = pile(fitted, i, levels[i])
+        top = None if found else pile(fitted, i, levels[i])
         if top is not None:
-            levels[i], std[Coefficient(effect, parameter, (i,))] = top, EQUAL * top
+            found = [(top, 0.0)]
+        if found:
+            levels[i], error = max(found)
+            least = read_to(fitted.trials, i, levels[i])
+            std[Coefficient(effect, parameter, (i,))] = max(error, least)
     sensor = fitted.sensor.with_values(effect, **{parameter: levels})
     free = frozenset(k for k in fitted.free if k.effect != effect)
     return fit(replace(fitted, sensor=sensor, free=free, std={**fitted.std, **std}).with_noise())

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.identification.fit.errors_in_variables import equations, has_noise
-from pyimu.identification.fit.fit import Fit, begin, with_prior
+from pyimu.identification.fit.fit import Fit, Last, begin, gauss_newton, with_prior
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.limited import with_limited
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
@@ -68,6 +68,9 @@ MOST_LINES = 4
 stand out."""
 
 MOST_EFFECTS = 8
+
+STEPS = 6
+"""Of least squares towards the places where forces act."""
 
 AS_NOISE = "explains no more than random noise would"
 """The reason for which an effect is taken back that is not told from noise."""
@@ -198,10 +201,21 @@ def _first(start: Fit, believed: bool) -> Fit:
     scale factor would go to where it leaves less of the noise, and not of the motion, and a random
     walk would stand for the motion then.
     """
+    start = _in_place(start)
     known, _ = with_reference_noise(start, [], believed)
     if not has_noise(known):
         return fit(start)
     return undrawn(fit(without_outweighed(known, fitted=False)))
+
+
+def _in_place(start: Fit) -> Fit:
+    """A model with what belongs to its logs alone fitted, where a force acts at a place that is to
+    be found: what an arm and a heading leave of the motion is no noise of a reference.
+    """
+    if all(t.place is None for t in start.trials):
+        return start
+    placed = gauss_newton(replace(start, free=frozenset()), STEPS)
+    return replace(placed, free=start.free, last=Last()).with_noise()
 
 
 def _is_of_reference(search: _Search) -> bool:

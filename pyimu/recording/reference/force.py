@@ -20,9 +20,11 @@ from pyimu.recording.recording import Recording
 from pyimu.recording.reference.attitude import attitude_at, one_sign, within
 from pyimu.recording.reference.band import trusted_band
 from pyimu.recording.reference.course import SPIKE, looks_like_degrees
+from pyimu.recording.reference.filters import below
 from pyimu.recording.reference.nodes import own_places
 from pyimu.recording.reference.rate import reference_rate
-from pyimu.recording.reference.sampling import slope_at
+from pyimu.recording.reference.sampling import slope_at, through
+from pyimu.recording.reference.shown import shown_up_to
 from pyimu.recording.reference.smoother import white_noise
 from pyimu.recording.reference.track import LEAST_NODES, STEP_RATIO, Track, fresh
 from pyimu.recording.reference.unsmoothed import restored_up_to
@@ -50,7 +52,8 @@ class Force:
     ``kind`` says what was differentiated, ``attitude`` (n, 4) is the body's, without jumps of sign,
     ``rate`` (n, 3) rad/s its rate; ``gravity`` m/s^2 was added, and is known to ``gravity_std``.
     ``band_hz`` is the highest frequency at which it is to be used, at most ``band_limit``; ``time``
-    (n,) s are the instants where the sensor's stamps scatter about these.
+    (n,) s are the instants where the sensor's stamps scatter about these. Above ``shown_hz`` what
+    was differentiated shows no motion, and was left out.
     """
 
     value: np.ndarray
@@ -63,6 +66,7 @@ class Force:
     band_limit: float
     findings: tuple[Finding, ...]
     time: np.ndarray | None
+    shown_hz: float = np.inf
 
 
 def reference_force(recording: Recording, latitude: float | None = None) -> Force | None:
@@ -105,7 +109,7 @@ def _given(source: Recording) -> Iterator[tuple[str, np.ndarray]]:
 def _of(kind, values, recording, source, time, q, seen, latitude) -> Force | None:
     """The force from ``values`` (m, 3) of one kind; None where none of it is known."""
     row = recording.sample_period
-    acceleration, track = _acceleration(kind, values, source, time, row)
+    acceleration, track, shown = _acceleration(kind, values, source, time, row)
     gravity, unsure = gravity_of(recording, latitude)
     force = np.full((len(time), 3), np.nan)
     known = np.isfinite(acceleration).all(axis=1) & np.isfinite(q).all(axis=1)
@@ -118,9 +122,8 @@ def _of(kind, values, recording, source, time, q, seen, latitude) -> Force | Non
     arms = arm_forces(seen.rate, time)
     moved = np.column_stack([force, arms.reshape(len(time), -1)])
     band = trusted_band(time, _without_spikes(recording), moved, limit)
-    return Force(
-        force, kind, q, seen.rate, gravity, unsure, band, limit, tuple(track.findings), seen.time
-    )
+    found = tuple(track.findings)
+    return Force(force, kind, q, seen.rate, gravity, unsure, band, limit, found, seen.time, shown)
 
 
 def _without_spikes(recording: Recording) -> np.ndarray:
@@ -144,9 +147,9 @@ def arm_forces(rate: np.ndarray, time: np.ndarray) -> np.ndarray:
 
 def _acceleration(
     kind: str, values: np.ndarray, source: Recording, time: np.ndarray, row: float
-) -> tuple[np.ndarray, Track]:
-    """Acceleration (n, 3) m/s^2 in the world at times (n,) of rows ``row`` s apart, and the samples
-    that it is from.
+) -> tuple[np.ndarray, Track, float]:
+    """Acceleration (n, 3) m/s^2 in the world at times (n,) of rows ``row`` s apart, the samples
+    that it is from, and the frequency in Hz above which these show no motion.
     """
     from scipy.interpolate import make_interp_spline  # a tenth of a second, and few logs need it
 
@@ -157,14 +160,21 @@ def _acceleration(
     spread = max(SPIKE * white_noise(nodes), STEP_RATIO * float(usual))
     rows = np.arange(len(at))
     track = Track(at, rows, lambda n: np.diff(nodes[n], axis=0), spread)
+    parts = [p for p in track.segments if len(p) > 2 * EDGE]
+    shown = shown_up_to([nodes[p] for p in parts], track.period, ORDER[kind])
     out = np.full((len(time), 3), np.nan)
-    for part in (p for p in track.segments if len(p) > 2 * EDGE):
+    for part in parts:
         inner = at[part[EDGE:-EDGE]]
         here = within(time, inner)
         if len(here):
-            spline = make_interp_spline(at[part], nodes[part], k=DEGREE)
-            out[here] = slope_at(time[here], spline, inner, row, ORDER[kind])
-    return out, track
+            curve = make_interp_spline(at[part], nodes[part], k=DEGREE)
+            if shown < np.inf:
+                pushed = below(curve(inner, ORDER[kind]), 2.0 * track.period * shown)
+                curve = through(inner, pushed, DEGREE)
+            out[here] = slope_at(
+                time[here], curve, inner, row, 0 if shown < np.inf else ORDER[kind]
+            )
+    return out, track, shown
 
 
 def _slope(values: np.ndarray, time: np.ndarray) -> np.ndarray:

@@ -22,6 +22,9 @@ DEGREE = 5
 LATE = "positions_late"
 """The finding of places that have another clock than the attitudes beside them."""
 
+SIDEWAYS = "reference_sideways"
+"""The finding of attitudes and places in a world whose vertical is another axis than z."""
+
 EXPLAINED = "explained"
 """Of a finding: what the filter, or the clock, explained of what the accelerometer shows beside the
 places, in nat."""
