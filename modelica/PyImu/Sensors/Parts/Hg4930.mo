@@ -10,13 +10,13 @@ package Hg4930 "Honeywell HG4930 CA51, tactical-grade IMU"
       annotation(Placement(transformation(extent={{100,-10},{120,10}})));
     PyImu.Effects.AngleRandomWalk.Gyro angleRandomWalk(samplePeriod=samplePeriod, y0=y0,
       N={1.1635528346628864e-05, 1.1635528346628864e-05, 1.1635528346628864e-05})
-      "Angle (velocity) random walk; N: 0.04 deg/sqrt(h) angular random walk, HG4930 product brochure, model CA51, specifications, unchecked";
+      "Angle (velocity) random walk; N: 0.04 deg/sqrt(h) angular random walk, HG4930 product brochure, model CA51, specifications, second-hand (INSbot.m, a simulator in MATLAB of an HG4930CA51: NoiseDensity 0.04 deg/sqrt(h))";
     PyImu.Noise.Normals angleRandomWalkNormals(samplePeriod=samplePeriod, seed=seed, n=3,
       channel={2090672062, 1471171709, 1319861564});
     PyImu.Effects.BiasInstability.Gyro biasInstability(samplePeriod=samplePeriod, y0=y0,
       B={1.824353882015184e-06, 1.824353882015184e-06, 1.824353882015184e-06}, f_low=1e-05,
       f_high=1)
-      "Bias instability, flicker noise; B: 0.25 deg/h in-run bias stability, taken as the floor 0.664 B of the Allan deviation, HG4930 product brochure, model CA51, specifications, unchecked";
+      "Bias instability, flicker noise; B: 0.25 deg/h in-run bias stability, taken as the floor 0.664 B of the Allan deviation, HG4930 product brochure, model CA51, specifications, second-hand (INSbot.m, a simulator in MATLAB of an HG4930CA51: BiasInstability 0.25 deg/h)";
     PyImu.Noise.Normals biasInstabilityNormals(samplePeriod=samplePeriod, seed=seed, n=18,
       channel={3196001024, 2505197763, 2353625474, 3272142661, 3658735108, 4047408583, 3894787206,
       1874698313, 1990627592, 389392437, 237934964, 621005495, 1008270326, 1935240497, 1782733936,
@@ -40,12 +40,12 @@ package Hg4930 "Honeywell HG4930 CA51, tactical-grade IMU"
       annotation(Placement(transformation(extent={{100,-10},{120,10}})));
     PyImu.Effects.AngleRandomWalk.Accel angleRandomWalk(samplePeriod=samplePeriod, y0=y0,
       N={0.0005, 0.0005, 0.0005})
-      "Angle (velocity) random walk; N: 0.03 m/s/sqrt(h) velocity random walk, HG4930 product brochure, model CA51, specifications, unchecked";
+      "Angle (velocity) random walk; N: 0.03 m/s/sqrt(h) velocity random walk, HG4930 product brochure, model CA51, specifications, second-hand (INSbot.m, a simulator in MATLAB of an HG4930CA51: NoiseDensity 0.03/60 m/s/sqrt(s))";
     PyImu.Noise.Normals angleRandomWalkNormals(samplePeriod=samplePeriod, seed=seed, n=3,
       channel={562850750, 178337917, 330959164});
     PyImu.Effects.BiasInstability.Accel biasInstability(samplePeriod=samplePeriod, y0=y0,
       B={0.0003690242395, 0.0003690242395, 0.0003690242395}, f_low=1e-05, f_high=1)
-      "Bias instability, flicker noise; B: 0.025 mg in-run bias stability, taken as the floor 0.664 B of the Allan deviation, HG4930 product brochure, model CA51, specifications, unchecked";
+      "Bias instability, flicker noise; B: 0.025 mg in-run bias stability, taken as the floor 0.664 B of the Allan deviation, HG4930 product brochure, model CA51, specifications, second-hand (INSbot.m, a simulator in MATLAB of an HG4930CA51: BiasInstability 0.025 mg)";
     PyImu.Noise.Normals biasInstabilityNormals(samplePeriod=samplePeriod, seed=seed, n=18,
       channel={3339721210, 3963439673, 4112939896, 3127373247, 2742869246, 2287046461, 2437594748,
       382902963, 264868850, 1243929653, 1396698484, 2014494391, 1628016630, 776476977, 928196720,

@@ -10,7 +10,7 @@ package Icm42670 "TDK InvenSense ICM-42670-P, low-power six-axis IMU"
       annotation(Placement(transformation(extent={{100,-10},{120,10}})));
     PyImu.Effects.AngleRandomWalk.Gyro angleRandomWalk(samplePeriod=samplePeriod, y0=y0,
       N={8.638939046419044e-05, 8.638939046419044e-05, 8.638939046419044e-05})
-      "Angle (velocity) random walk; N: 0.007 deg/s/sqrt(Hz) noise density, ICM-42670-P data sheet DS-000451, table 1, unchecked";
+      "Angle (velocity) random walk; N: 0.007 deg/s/sqrt(Hz) noise density, ICM-42670-P data sheet DS-000451, table 1, second-hand (design notes of an optical sight that cite DS-000451: gyro RNSD 0.007 deg/s/sqrt(Hz))";
     PyImu.Noise.Normals angleRandomWalkNormals(samplePeriod=samplePeriod, seed=seed, n=3,
       channel={2090672062, 1471171709, 1319861564});
     PyImu.Effects.Saturation.Gyro saturation(samplePeriod=samplePeriod, y0=y0,
@@ -34,7 +34,7 @@ package Icm42670 "TDK InvenSense ICM-42670-P, low-power six-axis IMU"
       annotation(Placement(transformation(extent={{100,-10},{120,10}})));
     PyImu.Effects.AngleRandomWalk.Accel angleRandomWalk(samplePeriod=samplePeriod, y0=y0,
       N={0.0006934348715723055, 0.0006934348715723055, 0.0006934348715723055})
-      "Angle (velocity) random walk; N: 100 ug/sqrt(Hz) noise density, ICM-42670-P data sheet DS-000451, table 2, unchecked";
+      "Angle (velocity) random walk; N: 100 ug/sqrt(Hz) noise density, ICM-42670-P data sheet DS-000451, table 2, second-hand (design notes of an optical sight that cite DS-000451: accel 100 ug/sqrt(Hz))";
     PyImu.Noise.Normals angleRandomWalkNormals(samplePeriod=samplePeriod, seed=seed, n=3,
       channel={562850750, 178337917, 330959164});
     PyImu.Effects.Saturation.Accel saturation(samplePeriod=samplePeriod, y0=y0, limit={156.9064,

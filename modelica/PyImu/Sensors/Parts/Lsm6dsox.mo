@@ -10,7 +10,7 @@ package Lsm6dsox "STMicroelectronics LSM6DSOX, consumer six-axis IMU with machin
       annotation(Placement(transformation(extent={{100,-10},{120,10}})));
     PyImu.Effects.AngleRandomWalk.Gyro angleRandomWalk(samplePeriod=samplePeriod, y0=y0,
       N={4.689709768056053e-05, 4.689709768056053e-05, 4.689709768056053e-05})
-      "Angle (velocity) random walk; N: 0.0038 deg/s/sqrt(Hz) rate noise density in high-performance mode, LSM6DSOX data sheet DS12814, table 2, unchecked";
+      "Angle (velocity) random walk; N: 0.0038 deg/s/sqrt(Hz) rate noise density in high-performance mode, LSM6DSOX data sheet DS12814, table 2, second-hand (AMR-RL, description of the robot Pip, sensors, which cites Rev 3: noise 3.8 mdps/sqrt(Hz))";
     PyImu.Noise.Normals angleRandomWalkNormals(samplePeriod=samplePeriod, seed=seed, n=3,
       channel={2090672062, 1471171709, 1319861564});
     PyImu.Effects.Saturation.Gyro saturation(samplePeriod=samplePeriod, y0=y0,
