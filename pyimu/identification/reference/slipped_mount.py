@@ -124,17 +124,14 @@ def _taken(
     (Frisch and Waugh 1933).
     """
     m, _, k = columns.shape
-    rows = range(FEWEST, m - FEWEST) if only is None else [only]
-    score = _from_here(np.einsum("mi,mik->mk", left, columns))
-    gram = _from_here(np.einsum("mij,mik->mjk", columns, columns))
-    across = _from_here(np.einsum("mp,mik->mpik", q, columns))
-    out = np.zeros(m if only is None else 1)
-    for place, r in enumerate(rows):
-        inside = across[r].reshape(-1, k)
-        own = gram[r] - inside.T @ inside
-        found = float(score[r] @ np.linalg.lstsq(own, score[r], rcond=1e-9)[0])
-        out[r if only is None else place] = found
-    return out
+    rows = slice(FEWEST, m - FEWEST) if only is None else slice(only, only + 1)
+    score = _from_here(np.einsum("mi,mik->mk", left, columns))[rows]
+    gram = _from_here(np.einsum("mij,mik->mjk", columns, columns))[rows]
+    across = _from_here(np.einsum("mp,mik->mpik", q, columns))[rows].reshape(len(score), -1, k)
+    own = gram - across.transpose(0, 2, 1) @ across
+    inverse = np.linalg.pinv(own, rcond=1e-9, hermitian=True)
+    found = np.einsum("mj,mjk,mk->m", score, inverse, score)
+    return found if only is not None else np.pad(found, FEWEST)
 
 
 def _from_here(values: np.ndarray) -> np.ndarray:
