@@ -55,12 +55,9 @@ HEADING_STD = 0.035
 
 def nominal_part(recording: Recording, rest: Rest) -> Part:
     """A part that knows of its sensors their white noise at rest, and where they are clipped."""
-    n_gyro, n_accel = (
-        std * np.sqrt(recording.sample_period) for std in (rest.rate_std, rest.force_std)
-    )
     (white, density), (walk, strength) = WHITE, WALK
-    gyro = {white: {density: n_gyro}, walk: {strength: NOMINAL_K}}
-    accel = {white: {density: n_accel}}
+    gyro = {white: {density: rest.rate_density}, walk: {strength: NOMINAL_K}}
+    accel = {white: {density: rest.force_density}}
     return Part(
         "nominal",
         1 / recording.sample_period,
@@ -137,8 +134,8 @@ def informed(part: Part, recording: Recording, rest: Rest) -> Part:
     part = wandering(part, warming(recording))
     if not of_a_sensor(part):
         return part
-    for sensor, std in ((part.gyro, rest.rate_std), (part.accel, rest.force_std)):
-        part = part.with_sensor(_noisy(sensor, std * np.sqrt(recording.sample_period)))
+    for sensor, own in ((part.gyro, rest.rate_density), (part.accel, rest.force_density)):
+        part = part.with_sensor(_noisy(sensor, own))
     effect, parameter = read_off(CATALOGUE.values(), "ceiling")
     for sensor, values in ((part.gyro, recording.gyro), (part.accel, recording.accel)):
         for seen in _clipped(values).values():

@@ -53,6 +53,18 @@ GRAVITY_OFF = 0.02
 or a unit."""
 
 
+MEAN_TIME = 0.1
+"""s; means over so long show the noise that a sensor's own low-pass leaves, down to 5 Hz."""
+
+FEWEST_MEANS = 20
+"""Of such means, from whose differences a variance is known to a fifth."""
+
+UNFILTERED = -0.4
+"""Correlation of a step between samples with the next one: -1/2 where noise is white. An AR(1) of
+which a fifth stays has this, and twice the density at 0 Hz that its steps show; in 300 samples of
+three axes chance makes 0.03 of it."""
+
+
 @dataclass(frozen=True, repr=False)
 class Rest(Brief):
     """The rows of a rest, its ``duration`` in s, and statistics of its samples.
@@ -62,7 +74,9 @@ class Rest(Brief):
     ``seen`` is False where no rest was found: the rows are then those of the shortest window.
     ``declared`` says that the recording's own column ``stationary`` marks it. ``force`` is None
     where no accelerometer measures gravity. ``rate_std`` and ``force_std`` are those of a sample's
-    white noise, ``rate_mean_std`` that of the mean rate. ``gravity`` in m/s^2 is that of the place.
+    white noise, ``rate_mean_std`` that of the mean rate; ``rate_density`` in rad/s/sqrt(Hz) and
+    ``force_density`` in m/s^2/sqrt(Hz) are the roots of the densities of what is white up to some
+    hertz. ``gravity`` in m/s^2 is that of the place.
     ``sways`` says that the body stands on nothing solid, and may turn slowly about the vertical.
     ``other_force`` in m/s^2 is the size of the mean force of a start that would be a rest if that
     were gravity; None where there is no such start.
@@ -76,6 +90,8 @@ class Rest(Brief):
     rate_std: np.ndarray
     force_std: np.ndarray
     rate_mean_std: np.ndarray
+    rate_density: np.ndarray
+    force_density: np.ndarray
     gravity: float
     declared: bool = False
     sways: bool = False
@@ -228,6 +244,8 @@ def _rest(
         mean, mean_std = rate.mean(axis=0), rate.std(axis=0) / np.sqrt(len(rate))
     # In motion even a force of half the magnitude of gravity is a better direction than none.
     usable = _is_gravity(force, gravity, FORCE_OFF if seen else np.inf)
+    period = recording.sample_period
+    rate_density, force_density = (root_density(v, period, seen) for v in (rate, force))
     return Rest(
         seen and len(rate) > 1,
         slice(0, stop),
@@ -237,15 +255,18 @@ def _rest(
         white_std(rate),
         white_std(force),
         np.hypot(mean_std, 1e-6),
+        rate_density,
+        force_density,
         gravity,
         declared,
-        seen and not declared and sways(rate, recording.sample_period),
+        seen and not declared and sways(rate, period, float(np.mean(rate_density**2))),
     )
 
 
-def sways(rate: np.ndarray, period: float) -> bool:
+def sways(rate: np.ndarray, period: float, noise: float) -> bool:
     """Whether the ``rate`` (n, 3) rad/s of a body that looks still is that of one that stands on
-    nothing solid, as the filter judges it (``stillness.sways``).
+    nothing solid, as the filter judges it (``stillness.sways``); ``noise`` in (rad/s)^2/Hz is the
+    density of its gyro's white noise.
     """
     if len(rate) * period < SLOW:
         return False
@@ -254,8 +275,33 @@ def sways(rate: np.ndarray, period: float) -> bool:
         lfilter([period / (t + period)], [1, -t / (t + period)], left, axis=0) for t in (FAST, SLOW)
     )
     density = np.mean((fast - slow) ** 2) / SHARE
-    noise = np.mean(white_std(rate) ** 2) * period
     return bool(density > swaying_density(len(rate) * period, noise))
+
+
+def root_density(values: np.ndarray, period: float, still: bool) -> np.ndarray:
+    """Root (3,) of the density of what is white up to some hertz in samples (n, 3), one a
+    ``period`` s.
+
+    Behind a low-pass, as sensors have it on the chip, neighbours are alike, and their differences
+    show a fraction of it: there it is taken from the differences of means, if the body is
+    ``still``. The noise of a sample that is none's neighbour hides nothing of a hand that trembles.
+    """
+    own = white_std(values) * np.sqrt(period)
+    count = min(round(MEAN_TIME / period), len(values) // FEWEST_MEANS)
+    if not still or count < 2 or not _is_filtered(values):
+        return own
+    means = values[: len(values) // count * count].reshape(-1, count, 3).mean(axis=1)
+    return np.maximum(own, white_std(means) * np.sqrt(count * period))
+
+
+def _is_filtered(values: np.ndarray) -> bool:
+    """Whether samples (n, 3) of a body at rest are like their neighbours."""
+    step = np.diff(values, axis=0)
+    step = step - step.mean(axis=0)
+    power = np.sum(step**2, axis=0)
+    moves = power > 0
+    alike = np.sum(step[1:] * step[:-1], axis=0)[moves] / power[moves]
+    return bool(moves.any()) and float(alike.mean()) > UNFILTERED
 
 
 def white_std(values: np.ndarray) -> np.ndarray:

@@ -1,9 +1,12 @@
 """A body that looks still and sways: it stands on nothing solid, and may turn slowly."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from attitude_cases import GRAVITY, H, part
 from drives import bodies
+from scipy.signal import butter, sosfilt
 
 from pyimu.attitude import run
 from pyimu.attitude.filter.stillness import TURN_STD
@@ -33,6 +36,24 @@ def test_a_rest_on_a_table_is_told_from_one_on_water():
             assert not find_rest(still(seed, seconds=seconds)).sways
         assert find_rest(still(seed, roll=0.002)).sways
     assert not find_rest(still(0, roll=0.002, seconds=2.0)).sways
+
+
+@pytest.mark.parametrize("cutoff", [5.0, 10.0, 20.0, 40.0])
+@pytest.mark.parametrize("order", [1, 2])
+def test_the_noise_of_a_gyro_behind_a_low_pass_is_no_sway(cutoff, order):
+    """Nor is it less in the nominal part, by more than the low-pass takes at 5 Hz and the scatter
+    of the noise of 300 means, four standard deviations.
+    """
+    low = butter(order, cutoff, output="sos", fs=1 / H)
+    least = 0.9 / (1 + (5.0 / cutoff) ** (2 * order)) ** 0.5
+    for seed in range(10):
+        table = still(seed)
+        found = find_rest(replace(table, gyro=sosfilt(low, table.gyro, axis=0)).slice(300, 3000))
+        assert not found.sways
+        assert found.rate_density.min() > (least - 4 / (2 * 270) ** 0.5) * N
+        water = still(seed, roll=0.002)
+        water = replace(water, gyro=sosfilt(low, water.gyro, axis=0)).slice(300, 3000)
+        assert find_rest(water).sways
 
 
 @pytest.mark.parametrize("known", [False, True])
