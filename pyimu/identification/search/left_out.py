@@ -21,7 +21,7 @@ from scipy.special import logsumexp
 
 from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import Fit, with_prior
-from pyimu.identification.fit.keys import Coefficient, Key, coefficients_of
+from pyimu.identification.fit.keys import Coefficient, Key, LogLag, coefficients_of
 from pyimu.identification.fit.mixture import standard_error
 from pyimu.identification.fit.normal import Normal
 from pyimu.identification.search.projected import Projected, dispersion
@@ -125,18 +125,24 @@ def _averaged(
 ) -> dict[Key, float]:
     """The standard errors of the elements ``own`` of an axis, those ``beside`` them left out, where
     any of both is there or not.
+
+    The lag of a thermometer is a share of what goes with temperature: it makes that unsure, and no
+    element that is not there likelier.
     """
     base = [
         i
         for i, k in enumerate(normal.keys)
         if (k in fit.free or not isinstance(k, Coefficient)) and k not in own
     ]
-    projected = Projected.of(normal, base, [normal.position[k] for k in (*own, *beside)])
+    lagless = [i for i in base if not isinstance(normal.keys[i], LogLag)]
+    at_own = [normal.position[k] for k in own]
+    projected = Projected.of(normal, lagless, [*at_own, *(normal.position[k] for k in beside)])
     gram, n = projected.gram, len(own)
-    if not np.all(np.diag(gram)[:n] > 0.0):
+    known = gram[:n, :n] if lagless == base else Projected.of(normal, base, at_own).gram
+    if not np.all(np.diag(known) > 0.0):
         return {}
     value = np.array([_value(fit, k) for k in own])
-    alone = np.diag(np.linalg.pinv(gram[:n, :n]))
+    alone = np.diag(np.linalg.pinv(known))
     score = projected.score + gram[:, :n] @ value
     wider: dict[Key, float] = {}
     for at, key in enumerate(own):
