@@ -5,8 +5,10 @@ The part that stands for an unknown one, and columns with their defaults.
 
 from __future__ import annotations
 
+import casadi as ca
 import numpy as np
 
+from pyimu.attitude.filter.compensation import noise_of
 from pyimu.attitude.filter.tolerances import bias_walk
 from pyimu.attitude.filter.variables import UNKNOWN_LATITUDE
 from pyimu.attitude.rest import Rest
@@ -45,6 +47,13 @@ NOMINAL_AXES_STD = 0.02
 that are off by a degree. The MPU-6050's are allowed +-2 % of another axis, evenly 0.012 for either
 triad, and +-50 mg before it is calibrated (PS-MPU-6000A-00 rev. 3.4, sections 6.1 and 6.2). Between
 0.01 and 0.03 it makes little difference."""
+
+NOISIER = 2.0
+"""A specimen's noise may be so many times what its part declares; beyond, what shakes it at rest
+is an engine."""
+
+CLEARLY = 1.25
+"""Times its part's noise above which a sensor is noisier: 300 samples scatter by a twentieth."""
 
 LEAST_WARMING = 1.0
 """s; in less no part warms, what changes is noise of its thermometer."""
@@ -126,16 +135,16 @@ def informed(part: Part, recording: Recording, rest: Rest) -> Part:
     """The part as the filter takes it over a recording.
 
     Where it says nothing of its gyro's wander it has the nominal one, and that of its tolerances as
-    the temperature is recorded. The samples of a real sensor
-    also show its white noise at ``rest``, where the part has none: a sensor without noise would
-    never be still. And they show where they pile up, at a level that the part does not say: beyond
-    it no sample says how far the body turned.
+    the temperature is recorded. The samples of a real sensor also show its white noise at ``rest``,
+    where the part has none or clearly less: a sensor with less noise than it has would never be
+    still. And they show where they pile up, at a level that the part does not say: beyond it no
+    sample says how far the body turned.
     """
     part = wandering(part, warming(recording))
     if not of_a_sensor(part):
         return part
     for sensor, own in ((part.gyro, rest.rate_density), (part.accel, rest.force_density)):
-        part = part.with_sensor(_noisy(sensor, own))
+        part = part.with_sensor(_noisy(sensor, own, recording.sample_period, rest.seen))
     effect, parameter = read_off(CATALOGUE.values(), "ceiling")
     for sensor, values in ((part.gyro, recording.gyro), (part.accel, recording.accel)):
         for seen in _clipped(values).values():
@@ -147,11 +156,20 @@ def informed(part: Part, recording: Recording, rest: Rest) -> Part:
     return part
 
 
-def _noisy(sensor: Sensor, density: np.ndarray) -> Sensor:
-    """The sensor, with white noise of this root ``density`` (3,) where it has none of its own."""
-    if any(e.law is not None and e.law.white is not None for e in sensor.effects):
-        return sensor
+def _noisy(sensor: Sensor, shown: np.ndarray, period: float, at_rest: bool) -> Sensor:
+    """The sensor with white noise of the root density (3,) that its samples have ``shown``, where
+    it has none of its own, or clearly less than they have ``at_rest``.
+    """
     white, parameter = WHITE
+    if not any(e.law is not None and e.law.white is not None for e in sensor.effects):
+        return sensor.with_values(white, **{parameter: shown})
+    known = noise_of(sensor, ca.SX(ca.DM(sensor.p)), period).white
+    own = np.array(ca.evalf(known), dtype=float).ravel()
+    more = np.where(shown > CLEARLY * own, np.minimum(shown, NOISIER * own), own)
+    if not at_rest or np.array_equal(more, own):
+        return sensor
+    declared = sensor.values.get(white, {}).get(parameter, np.zeros(3))
+    density = np.sqrt(declared**2 + more**2 - own**2)
     return sensor.with_values(white, **{parameter: density})
 
 

@@ -177,7 +177,7 @@ def _job(
     clean = clean_of(recording, declared)
     rest = rest_at_start(clean, declared, gravity)
     part = known_part(declared, recording, rest)
-    noise = noise_at_rest(recording, part, rest, declared is not None)
+    noise = noise_at_rest(recording, part, rest, declared)
     turns: list[Finding] = []
     still, _ = stops_of(clean, noise, zupt, turns)
     if zupt in ("auto", "foot") and not still[rest.rows].any():

@@ -7,6 +7,7 @@ from dataclasses import replace
 import casadi as ca
 import numpy as np
 
+from pyimu.attitude.columns import NOISIER
 from pyimu.attitude.filter.compensation import noise_of
 from pyimu.attitude.rest import FORCE_OFF, Rest, find_rest
 from pyimu.errors import Finding, UserError
@@ -16,6 +17,7 @@ from pyimu.ins.filter.layout import open_std
 from pyimu.ins.filter.prediction import LASTS
 from pyimu.ins.speeds import driven
 from pyimu.model.part import Part
+from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 
 ZUPT = ("auto", "live", "foot", "declared", "off")
@@ -28,10 +30,6 @@ FIRST = 0.5
 
 SIGMAS = 3.0
 """Standard deviations of a tolerance up to which a mean is taken for an error of the part."""
-
-NOISIER = 2.0
-"""A specimen's noise may be so many times what its part declares; beyond, what shakes it at the
-start of a log is the engine of a robot that may already drive."""
 
 
 def rest_at_start(recording: Recording, part: Part | None, gravity: float) -> Rest:
@@ -109,18 +107,25 @@ def stops_of(
     return still, found
 
 
-def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: bool) -> Noise:
+def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: Part | None) -> Noise:
     """What a detector needs of the sensors: the part's noise, or that of the rest at the start
-    where it is larger. ``declared`` says that the noise is that of a part.
+    where it is larger. ``declared`` is the part as its maker has it.
     """
-    period = recording.sample_period
     still = rest.seen or rest.other_force is not None
     stds, walks = [], []
-    for sensor, seen in ((part.gyro, rest.rate_std), (part.accel, rest.force_std)):
-        noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), period, LASTS)
-        white = np.array(ca.evalf(noise.white), dtype=float).ravel() / np.sqrt(period)
-        most = NOISIER * white if declared else np.full(3, np.inf)
+    for kind, seen in (("gyro", rest.rate_std), ("accel", rest.force_std)):
+        white, walk = _noise(part.sensor(kind), recording.sample_period)
+        most = np.full(3, np.inf)
+        if declared is not None:
+            most = NOISIER * _noise(declared.sensor(kind), recording.sample_period)[0]
         shown = np.minimum(seen, most) if still else np.zeros(3)
         stds.append(np.maximum(np.maximum(white, shown), 1e-9))
-        walks.append(np.array(ca.evalf(noise.walk), dtype=float).ravel())
+        walks.append(walk)
     return Noise(stds[0], stds[1], walks[0], rest.rate if still else np.zeros(3))
+
+
+def _noise(sensor: Sensor, period: float) -> tuple[np.ndarray, np.ndarray]:
+    """Standard deviation (3,) of a sample's white noise, and the random walk (3,), of a sensor."""
+    noise = noise_of(sensor, ca.SX(ca.DM(sensor.p)), period, LASTS)
+    white, walk = (np.array(ca.evalf(v), dtype=float).ravel() for v in (noise.white, noise.walk))
+    return white / np.sqrt(period), walk

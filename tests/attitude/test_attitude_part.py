@@ -6,7 +6,7 @@ from attitude_cases import GRAVITY, H, drive, part, rover_rate
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run
-from pyimu.attitude.columns import NOMINAL_K, NOMINAL_RATE_NOISE, informed, rate_noise
+from pyimu.attitude.columns import NOISIER, NOMINAL_K, NOMINAL_RATE_NOISE, informed, rate_noise
 from pyimu.attitude.error import error_against
 from pyimu.attitude.rest import find_rest
 from pyimu.model.part_file import parse_part
@@ -70,6 +70,17 @@ def test_the_accelerometers_noise_is_that_at_rest_where_a_measured_part_does_not
     made = part()
     made = made.with_sensor(made.accel.without(white))
     assert white not in as_taken(made, recording).accel.values
+
+
+@pytest.mark.parametrize(("times", "taken"), [(0.9, 1.0), (1.0, 1.0), (1.6, 1.6), (4.0, NOISIER)])
+def test_a_measured_part_is_as_noisy_as_its_samples_at_rest(times, taken):
+    """Up to twice what it declares, and not less; to five standard errors of 2000 samples."""
+    recording, white = resting(), "angle_random_walk"
+    said = parse_part(MEASURED + SAID, "part.toml")
+    declared = np.full(3, NOISE * np.sqrt(H) / times)
+    said = said.with_sensor(said.accel.with_values(white, N=declared))
+    found = as_taken(said, recording).accel.values[white]["N"] / declared
+    np.testing.assert_allclose(found, taken, rtol=5 / np.sqrt(2 * 2000))
 
 
 def test_a_measured_part_without_accelerometer_finds_rests():
