@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -60,6 +61,7 @@ def inspect_command(
     if out is not None:
         lines.append(f"report: {out / 'report.html'}")
     data = found.as_dict()
-    tell(found.report, lambda: json_text(data), lines, as_json=as_json, quiet=quiet)
+    said = partial(found.report, write_map)
+    tell(said, lambda: json_text(data), lines, as_json=as_json, quiet=quiet)
     if not found.readable:
         raise typer.Exit(UNREADABLE)

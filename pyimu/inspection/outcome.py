@@ -33,7 +33,8 @@ class Outcome:
     ``kind`` is one of ``KINDS``, ``format`` what was recognised; ``proposals`` hold what is known
     of the columns, ``column_map`` the same as text of a column map. ``problem`` says why the log
     could not be read, else there is a ``recording`` with ``findings``, ``rests`` (rows start,
-    stop) and whether it is ``still`` throughout.
+    stop) and whether it is ``still`` throughout. ``given`` are the files that were asked for, and
+    ``given_map`` the column map with them.
     """
 
     path: Path
@@ -46,6 +47,17 @@ class Outcome:
     findings: tuple[Finding, ...] = ()
     rests: Sequence[tuple[int, int]] = ()
     still: bool = False
+    given: tuple[Path, ...] = ()
+    given_map: Path | None = None
+
+    @property
+    def log(self) -> str:
+        """What the other commands take for the log: its folder, or that file of it which its map is
+        for.
+        """
+        if len(self.given) == 1:
+            return str(self.given[0])
+        return str(next((p.path for p in self.proposals if "gyro" in p.groups), self.path))
 
     @property
     def readable(self) -> bool:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from pyimu import notebook
 from pyimu.errors import UserError
 from pyimu.files import check_folder, shortened, staged, write_json, write_text
+from pyimu.inspection.next_step import next_step
 from pyimu.inspection.outcome import Outcome
 from pyimu.inspection.page import page
 
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
 class Inspection(Outcome):
     """A log that was looked into, to be printed and written."""
 
-    def report(self) -> str:
-        """The same for a terminal, with what to do next."""
+    def report(self, written: Path | None = None) -> str:
+        """The same for a terminal, with what to do next; ``written`` is the map that was."""
         said = [*self.lines()]
         questions = [q for p in self.proposals for q in p.open_questions]
         if self.problem:
@@ -33,6 +34,7 @@ class Inspection(Outcome):
             said.append(f"choose the unit of {', '.join(questions)} in the map")
         if self.kind == "guessed" and not self.problem:
             said.append(f"it is read by the map alone: give that to {self.proposals[0].given_to}")
+        said += next_step(self, written)
         return "\n".join(said)
 
     def __repr__(self) -> str:

@@ -16,11 +16,12 @@ from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.guessed import Guess, Proposal
-from pyimu.recording.guess.proposal import forces, proposed
+from pyimu.recording.guess.proposal import ZEROS, forces, proposed
 from pyimu.recording.guess.writing import MapGiven, text_of
 from pyimu.recording.known import STATED, is_own, recognised
 from pyimu.recording.log import Log
 from pyimu.recording.made import with_made_columns
+from pyimu.recording.optical import question
 from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
@@ -45,6 +46,7 @@ def inspect(
     given = [Path(paths)] if isinstance(paths, (str, os.PathLike)) else [Path(p) for p in paths]
     data = {} if columns is None else read_toml(Path(columns))
     foreign = None if columns is None else map_of(data, Path(columns))
+    asked, by = tuple(given), None if columns is None else Path(columns)
     whole = log_in(given[0]) if len(given) == 1 else None
     if whole is not None:
         given = [whole.path, *(whole.path.parent / name for name, _ in whole.foreign.files)]
@@ -65,6 +67,7 @@ def inspect(
         data = {"frame": known[1].frame, **({"file": kinds} if kinds else {})}
     text = text_of(_ordered(proposals), MapGiven(data, given[0].name))
     found = Inspection(given[0], kind, known[0] if known else "", proposals, text)
+    found = replace(found, given=asked, given_map=by)
     say("reading")
     if foreign is None and known is not None and len(given) == 1:
         foreign = known[1]
@@ -169,10 +172,21 @@ def _proposals(
         if own is None and beside is not None and "accel" not in found[k].groups:
             if "gyro" in found[k].open_questions:
                 found[k] = proposed(reader, rate, beside)
-    if foreign is not None:
+    if foreign is None:
+        _once(_ordered(found))
+    else:
         for proposal in found:
             proposal.guesses = [_sized(guess, foreign) for guess in proposal.guesses]
     return found
+
+
+def _once(proposals: Sequence[Proposal]) -> None:
+    """Leave out what an earlier file of the log holds, such as a temperature in each of them."""
+    there: set[str] = set()
+    for proposal in proposals:
+        twice = there & set(proposal.groups) - {"gyro", "accel"}
+        proposal.guesses = [g for g in proposal.guesses if g.group not in twice]
+        there |= set(proposal.groups) - {"time"}
 
 
 def _sized(guess: Guess, foreign: ForeignMap) -> Guess:
@@ -202,10 +216,16 @@ def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: st
     unknown = [group for p in proposals for group in p.open_questions]
     seen = {"ref_q"} if first.holds == "reference" else {"gyro", "accel"} & set(first.groups)
     if not seen and "time" not in unknown:
+        if asked := question(reader):
+            raise UserError(f"{reader.path}: {asked}")
         raise UserError(
             f"{reader.path}: no column is known for a gyro's, an accelerometer's or a reference's: "
             "name them in the map"
         )
+    zeros = [g.group for p in proposals for g in p.guesses if g.why == ZEROS]
+    if seen <= set(zeros):
+        empty = " and ".join(dict.fromkeys(zeros))
+        raise UserError(f"{reader.path}: {empty}: every number is zero, there is nothing to read")
     if "time" in unknown or seen <= set(unknown):
         asked = " and ".join(dict.fromkeys(unknown))
         raise UserError(f"{reader.path}: nothing tells the unit of {asked}: choose it in the map")

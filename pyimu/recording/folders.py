@@ -1,5 +1,5 @@
-"""Folders that are one log: a phone's or a MetaMotion's, KITTI's ``oxts`` or the drive around it,
-and a sequence of EuRoC MAV or TUM VI with its ground truth.
+"""Folders that are one log: a phone's, a MetaMotion's or an NGIMU's, KITTI's ``oxts`` or the drive
+around it, and a sequence of EuRoC MAV or TUM VI with its ground truth.
 
 The sequence's layout is that of Burri et al. 2016 (EuRoC), which TUM VI keeps: ``mav0`` with a
 folder for each instrument, each with its ``data.csv``.
@@ -13,12 +13,16 @@ from typing import NamedTuple
 from pyimu.files import exists
 from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.formats.oxts import oxts_in
+from pyimu.recording.formats.text import CsvReader
 from pyimu.recording.phone import is_phone, of_phone
 
 IMU, TABLE = "imu0", "data.csv"
 
 TRUTHS = ("state_groundtruth_estimate0", "mocap0", "vicon0")
 """Instruments that are a reference, the best first."""
+
+NGIMU = "sensors.csv"
+"""What x-io's programs call the file of gyro, accelerometer and magnetometer of one device."""
 
 LAYERS = ("mav0", IMU, "oxts")
 """Folders inside a sequence, which do not name it."""
@@ -46,8 +50,18 @@ def log_in(folder: Path) -> FolderLog | None:
     oxts = oxts_in(folder)
     if oxts is not None:
         return FolderLog(named.name, oxts, ForeignMap())
+    if _is_ngimu(folder / NGIMU):
+        return FolderLog(named.name, folder / NGIMU, ForeignMap())
     table = next((p for p in _tables(folder) if p.is_file()), None)
     return table and FolderLog(named.name, table, ForeignMap(), truth_beside(table))
+
+
+def _is_ngimu(path: Path) -> bool:
+    """Whether a file is NGIMU's or x-IMU3's of its sensors, whose header states all units."""
+    if not path.is_file():
+        return False
+    needed = {f"{s} {a}" for s in ("Gyroscope", "Accelerometer") for a in "XYZ"}
+    return needed <= {cell.partition(" (")[0] for cell in CsvReader.open(path).header}
 
 
 def _tables(folder: Path) -> list[Path]:

@@ -19,6 +19,7 @@ from pyimu.recording.formats.oxts import CLOCK, TIME, is_oxts
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.names import DERIVED, TRUTHS, named, others, surest, triads
 from pyimu.recording.messages import imu_message, pose_message
+from pyimu.recording.optical import optical_body
 from pyimu.recording.programs import PROGRAMS
 from pyimu.recording.vectors import triad_map, unnamed
 from pyimu.recording.xsens import xsens
@@ -247,6 +248,7 @@ FORMATS = (
     ("Xsens, by its manuals", xsens),
     ("ROS's sensor_msgs/Imu, by the message's definition", imu_message),
     ("ROS's message of a pose, by its definition", pose_message),
+    ("a table of an optical system, by its header", optical_body),
     ("SensorLog, by its header", sensor_log),
     ("Core Motion, by its documentation", core_motion),
     ("Sensor Logger, by its documentation", _phone),
@@ -287,6 +289,8 @@ def stated(reader: Reader) -> ForeignMap | None:
         if triad is None:
             continue
         if needed and (triad.unit is None or rivals or triad.score < 4):
+            return None
+        if triad.names[1].cell.strip().isdigit():
             return None
         if triad.unit is not None and not rivals:
             columns |= triad_map([name.cell for name in triad.names], group, triad.unit)

@@ -6,8 +6,10 @@ import math
 from collections.abc import Callable
 from itertools import islice
 
+import numpy as np
+
 from pyimu.errors import UserError
-from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.column_map import BODY, ForeignMap
 from pyimu.recording.columns import XYZ
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.layout import FAR
@@ -159,6 +161,77 @@ def nuscenes(reader: Reader) -> ForeignMap | None:
     return ForeignMap(columns=columns | triad_map(force, "accel", "m/s^2"))
 
 
+def px4_table(reader: Reader) -> ForeignMap | None:
+    """A table of PX4's ``sensor_combined``, as ulog2csv of pyulog writes it (SensorCombined.msg):
+    us, rad/s, m/s^2, forward-right-down.
+    """
+    rate, force = ([f"{n}[{k}]" for k in range(3)] for n in ("gyro_rad", "accelerometer_m_s2"))
+    if not {"timestamp", *rate, *force} <= set(reader.header):
+        return None
+    columns = {"timestamp": "time [us]"} | triad_map(rate, "gyro", "rad/s")
+    return ForeignMap(columns=columns | triad_map(force, "accel", "m/s^2"), body=BODY["frd"])
+
+
+def ardupilot_table(reader: Reader) -> ForeignMap | None:
+    """A table of ArduPilot's ``IMU``, as pymavlink's mavlogdump writes it (its log messages): us,
+    rad/s, m/s^2, forward-right-down; none where it has the samples of several units, ``I``.
+    """
+    rate, force = ([f"{n}{a}" for a in "XYZ"] for n in ("Gyr", "Acc"))
+    if not {"TimeUS", *rate, *force} <= set(reader.header) or _several(reader, "I"):
+        return None
+    columns = {"TimeUS": "time [us]"} | triad_map(rate, "gyro", "rad/s")
+    columns |= triad_map(force, "accel", "m/s^2")
+    columns |= {"T": "temperature [degC]"} if "T" in reader.header else {}
+    return ForeignMap(columns=columns, body=BODY["frd"])
+
+
+def _several(reader: Reader, cell: str) -> bool:
+    """Whether a column has several numbers in the first rows."""
+    at = reader.header.index(cell) if cell in reader.header else -1
+    if at not in reader.numeric():
+        return False
+    columns, _ = next(reader.batches([at], at), ([np.zeros(0)], 1.0))
+    return len(np.unique(columns[0])) > 1
+
+
+def mavlink_table(reader: Reader) -> ForeignMap | None:
+    """A table of MAVLink's SCALED_IMU (ms, mrad/s, mg, mgauss, hundredths of degC) or HIGHRES_IMU
+    (us, rad/s, m/s^2, gauss, degC), by the messages' definitions; forward-right-down.
+    """
+    rate, force, field = ([f"{a}{n}" for a in XYZ] for n in ("gyro", "acc", "mag"))
+    cells = set(reader.header)
+    if not {*rate, *force} <= cells:
+        return None
+    scaled = "time_boot_ms" in cells
+    if not scaled and not {"time_usec", "abs_pressure"} <= cells:
+        return None
+    units = ("mrad/s", "mg", "mgauss") if scaled else ("rad/s", "m/s^2", "gauss")
+    columns = {"time_boot_ms": "time [ms]"} if scaled else {"time_usec": "time [us]"}
+    columns |= triad_map(rate, "gyro", units[0]) | triad_map(force, "accel", units[1])
+    columns |= triad_map(field, "mag", units[2]) if set(field) <= cells else {}
+    scale = {}
+    if "temperature" in cells:
+        columns["temperature"] = f"temperature [{'count' if scaled else 'degC'}]"
+        scale = {"temperature": Scale(0.01, parse("degC"))} if scaled else {}
+    return ForeignMap(columns=columns, scale=scale, body=BODY["frd"])
+
+
+def vectornav_table(reader: Reader) -> ForeignMap | None:
+    """A table of a VectorNav sensor's binary output, as its library's exporter writes it (its
+    manuals, "IMU group"): ns, rad/s, m/s^2, gauss, kPa, forward-right-down.
+    """
+    rate, force, field = ([f"Uncomp{n}{a}" for a in "XYZ"] for n in ("Gyro", "Accel", "Mag"))
+    time = next((c for c in ("TimeStartup", "TimeGps") if c in reader.header), None)
+    if time is None or not {*rate, *force} <= set(reader.header):
+        return None
+    columns = {time: "time [ns]"} | triad_map(rate, "gyro", "rad/s")
+    columns |= triad_map(force, "accel", "m/s^2")
+    columns |= triad_map(field, "mag", "gauss") if set(field) <= set(reader.header) else {}
+    if "Temperature" in reader.header:
+        columns["Temperature"] = "temperature [degC]"
+    return ForeignMap(columns=columns, body=BODY["frd"])
+
+
 PROGRAMS: tuple[tuple[str, Callable[[Reader], ForeignMap | None]], ...] = (
     ("Gyroflow's log, by its description", gyroflow),
     ("GnssLogger, by its description", gnss_logger),
@@ -166,5 +239,9 @@ PROGRAMS: tuple[tuple[str, Callable[[Reader], ForeignMap | None]], ...] = (
     ("imu.txt of a bag, by its names", bag_text),
     ("RoNIN, by its description", ronin),
     ("nuScenes' CAN bus, by its description", nuscenes),
+    ("VectorNav's binary output, by its manuals", vectornav_table),
+    ("PX4's sensor_combined, by its definition", px4_table),
+    ("ArduPilot's IMU, by its definition", ardupilot_table),
+    ("MAVLink's message of an inertial unit, by its definition", mavlink_table),
 )
 """What each is called, and its map."""

@@ -5,7 +5,7 @@ This sets units and axes, checks the order of the time, drops repeats and marks 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from pyimu.errors import Finding, UserError
 from pyimu.recording.angles import of_angles
 from pyimu.recording.coarse import COARSE_STAMPS, EvenTimes, even_times
 from pyimu.recording.column_map import BODY, ForeignMap, read_map
-from pyimu.recording.columns import ANGLES, GROUPS, column_names, own_name
+from pyimu.recording.columns import ANGLES, GROUP_OF, GROUPS, column_names, own_name
 from pyimu.recording.counter import BITS, NEARLY, Unwrapped
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.folders import log_in
@@ -88,8 +88,16 @@ class Source:
         return replace(source, name=whole.name, truth=whole.truth)
 
     @classmethod
-    def of(cls, reader: Reader, foreign: ForeignMap, wanted: str = "sensor") -> Source:
-        """What ``reader`` has opened. Raises UserError as ``open`` does."""
+    def of(
+        cls,
+        reader: Reader,
+        foreign: ForeignMap,
+        wanted: str = "sensor",
+        held: Container[str] = (),
+    ) -> Source:
+        """What ``reader`` has opened, without the groups that are ``held`` by another file where no
+        map names their columns. Raises UserError as ``open`` does.
+        """
         findings: tuple[Finding, ...] = ()
         is_known = False
         reader, foreign = with_made_columns(reader, foreign)
@@ -101,6 +109,10 @@ class Source:
         if foreign.body is None and reader.body is not None:
             foreign = replace(foreign, body=BODY[reader.body])
         names = foreign.rename(reader.path, reader.header)
+        names = [
+            f"other {n}" if n == cell and GROUP_OF.get(own_name(n) or "") in held else n
+            for n, cell in zip(names, reader.header, strict=True)
+        ]
         for k, (name, cell) in enumerate(zip(names, reader.header, strict=True)):
             if own_name(name) == "time" and cell in reader.clocks:
                 names[k] = TIME
@@ -145,7 +157,7 @@ def _companions(path: Path, foreign: ForeignMap, header: Header) -> tuple[Source
     """The further files that a map names, beside the log or where their paths say."""
     found = []
     for name, own in foreign.files:
-        source = Source.of(open_reader(path.parent / name, own.topics), own, "any")
+        source = Source.of(open_reader(path.parent / name, own.topics), own, "any", header.groups)
         twice = next((g for g in source.header.groups if g in header.groups), None)
         if twice is not None:
             raise UserError(f"{source.header.path}: holds {twice}, which {path} holds too")

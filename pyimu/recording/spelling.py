@@ -33,6 +33,7 @@ WORDS = {
     "degrees": "deg",
     "radian": "rad",
     "radians": "rad",
+    "mdeg": "mdeg",
     "dps": "deg/s",
     "gs": "g",
     "gees": "g",

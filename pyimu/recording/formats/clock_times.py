@@ -1,7 +1,8 @@
 """Dates and times of day in words of digits: ``2024-02-01T12:00:00.010Z``, ``12:00:00,010``.
 
 A date that ends with its year may have its day first or its month: of ``2/1/2024 12:00:00`` the
-time of day alone counts. Phones write milliseconds behind a third colon, ``12:00:00:010``.
+time of day alone counts, and of ``Wed Dec 22 21:09:46 2021``. Phones write milliseconds behind a
+third colon, ``12:00:00:010``.
 
 And those that Parquet files and data frames hold as such, with spans of time.
 """
@@ -14,12 +15,16 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
 
+_WEEKDAY = "(?:Mon|Tue|Wed|Thu|Fri|Sat|Sun)"
+_MONTH = "(?:Jan|Feb|Mar|Apr|May|Jun|Jul|Aug|Sep|Oct|Nov|Dec)"
+
 _PATTERN = (
     r"^\s*(?:(?P<year>\d{4})[-/](?P<month>\d{1,2})[-/](?P<day>\d{1,2})[T ]\s*"
-    r"|\d{1,2}[-/.]\d{1,2}[-/.]\d{4}[T ]\s*)?"
+    r"|\d{1,2}[-/.]\d{1,2}[-/.](?:\d{4}|\d{2})[T ]\s*"
+    rf"|{_WEEKDAY} {_MONTH} +\d{{1,2}} )?"
     r"(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2})"
     r"(?:[.,](?P<part>\d{1,9})\d*|:(?P<thousandths>\d{3}))?"
-    r"\s*(?:Z|UTC|(?P<zone>[-+]\d{2}:?\d{2}))?\s*$"
+    r"\s*(?:Z|UTC|(?P<zone>[-+]\d{2}:?\d{2})| \d{4})?\s*$"
 )
 
 DAY = 86400

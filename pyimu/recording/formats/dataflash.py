@@ -7,6 +7,7 @@ the instances. ``ATT`` is a filter's estimate, and no truth.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from types import ModuleType
@@ -29,6 +30,9 @@ FIELDS = {"GyrX": "gyro_x [rad/s]", "GyrY": "gyro_y [rad/s]", "GyrZ": "gyro_z [r
 TEMPERATURES = ("T", "Temp")
 """What the thermometer's field is called, in newer and older logs."""
 
+
+MAGIC = b"\xa3\x95"
+"""What a binary log begins with."""
 
 DAMAGE = ("bad header", "unknown msg type", "Skipped", "bad msg", "Failed to parse")
 """What pymavlink's lines say where it passes over bytes."""
@@ -56,11 +60,18 @@ class DataflashReader:
             return StreamReader(path, columns, findings)
 
 
+def is_dataflash(path: Path) -> bool:
+    """Whether a ``.log`` is one of these, or the text of something else, as of a serial monitor."""
+    with path.open("rb") as file:
+        head = file.read(4096)
+    return head[:2] == MAGIC or re.search(rb"^FMT, ?", head, re.M) is not None
+
+
 def _opened(module: ModuleType, path: Path) -> Any:
     """Raises UserError for a file that begins as no dataflash log does."""
     with path.open("rb") as file:
         head = file.read(2)
-    if head == b"\xa3\x95":
+    if head == MAGIC:
         return _in_python(module.DFReader_binary)(str(path))
     if path.suffix.lower() == ".log":
         return module.DFReader_text(str(path))

@@ -25,6 +25,7 @@ from pyimu.recording.formats.marked import (
     labelled,
     vectornav,
 )
+from pyimu.recording.formats.optical import optical
 from pyimu.recording.formats.unnamed import names_of
 from pyimu.recording.spelling import bare, unit_of
 
@@ -145,6 +146,10 @@ def layout_of(path: Path, topic: str = "") -> Layout:
             code=code_of(path),
             marked=marked,
         )
+    table = optical(head)
+    if table is not None:
+        found = Layout(table.separator, ".", table.names, table.first, rate=table.rate)
+        return replace(found, code=code_of(path))
     found = replace(told_from(head), code=code_of(path))
     for row, line in enumerate(head[: found.first - 1], 1):
         line = line.rstrip("\r\n")

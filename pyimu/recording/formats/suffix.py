@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 from collections.abc import Mapping
+from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, BinaryIO
@@ -16,7 +17,7 @@ from pyarrow import parquet
 from pyimu.errors import UserError
 from pyimu.files import check_regular, exists, shortened, whole
 from pyimu.recording.formats.bag import BagReader
-from pyimu.recording.formats.dataflash import DataflashReader
+from pyimu.recording.formats.dataflash import DataflashReader, is_dataflash
 from pyimu.recording.formats.hdf5 import Hdf5Reader
 from pyimu.recording.formats.json_rows import JsonReader
 from pyimu.recording.formats.layout import NO_TOPICS
@@ -51,6 +52,9 @@ READERS: Mapping[str, Any] = MappingProxyType(
 MOST_NAMED = 6
 """Files of a folder that a message names."""
 
+MOST_SEEN = 1000
+"""Files of the folders in a folder that are looked at for it."""
+
 WITH_TOPICS = (BagReader, UlogReader, DataflashReader)
 """Readers of files that hold more than one stream of samples."""
 
@@ -70,7 +74,9 @@ def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
         raise UserError(f"{path}: a folder, give the files in it{_tables_in(path)}")
     if not folder:
         check_regular(path)
-    reader = BagReader if folder else _by_suffix(path, READERS)
+    reader = BagReader if folder else _by_suffix(path, READERS, "; rename text to .txt")
+    if reader is DataflashReader and path.suffix.lower() == ".log" and not is_dataflash(path):
+        reader = CsvReader
     if reader in WITH_TOPICS:
         return reader.open(path, topics or {})
     if topics and reader is CsvReader and set(topics) == {"imu"}:
@@ -82,7 +88,11 @@ def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
 
 def _tables_in(folder: Path) -> str:
     """The names of the files in a folder that a reader may open, for a message."""
-    there = sorted(p.name for p in folder.iterdir() if p.name.lower().endswith(tuple(READERS)))
+    ends = tuple(READERS)
+    there = sorted(p.name for p in folder.iterdir() if p.name.lower().endswith(ends))
+    if not there:
+        inner = (p for p in folder.glob("*/*") if p.name.lower().endswith(ends))
+        there = sorted(str(p.relative_to(folder)) for p in islice(inner, MOST_SEEN))
     if not there:
         return ""
     return f" that belong to one log: {', '.join(there[:MOST_NAMED])}" + (
@@ -131,9 +141,9 @@ def _write_parquet(stream: BinaryIO, table: pa.Table) -> None:
     parquet.write_table(table, stream)
 
 
-def _by_suffix(path: Path, choices: Mapping[str, Any]) -> Any:
+def _by_suffix(path: Path, choices: Mapping[str, Any], hint: str = "") -> Any:
     for suffix, choice in choices.items():
         if path.name.lower().endswith(suffix):
             return choice
     suffixes = ", ".join(suffix for suffix in choices if suffix.count(".") < 2 or "csv" in suffix)
-    raise UserError(f"{shortened(path)}: a recording's name must end in {suffixes}")
+    raise UserError(f"{shortened(path)}: a recording's name must end in {suffixes}{hint}")

@@ -75,7 +75,8 @@ ELSE = {"pos", "position", "vel", "velocity", "speed", "angle", "euler"}
 """Words for vectors that no inertial sensor measures."""
 
 ONE_VECTOR = [f"column {k}" for k in range(1, 5)]
-"""A table without names of a time and a vector, which its file's name may tell: ``gyro.csv``."""
+"""A table without names of a time and a vector, which its file's name may tell: ``gyro.csv``; the
+time may be missing."""
 
 TOLD_BY_UNIT = ("gyro", "mag")
 """Vectors whose units nothing else has, whatever its name: ``AsX(°/s)``, ``HX(uT)``."""
@@ -150,10 +151,18 @@ def named(cell: str) -> Name:
     return Name(cell, tuple(words), axis, unit, said or (unit or ""))
 
 
+EITHER = {"G": ("g", "gauss"), "mG": ("mg", "mgauss")}
+"""Units that mean gravity of an accelerometer, and the field of a magnetometer."""
+
+
 def _unit(said: str, text: str) -> str | None:
     found = unit_of(said)
-    if found is None and said == "G" and "acc" in text.casefold():
-        return "g"
+    if found is None and said in EITHER:
+        _, words = _axis([word.casefold() for word in _WORD.findall(text)])
+        name = Name(text, tuple(words))
+        sure = {group: name.of(group) for group in ("accel", "mag")}
+        if max(sure.values()) > min(sure.values()):
+            return EITHER[said][sure["mag"] > sure["accel"]]
     return "degC" if found is None and said == "C" else found
 
 
@@ -211,10 +220,10 @@ def triads(header: Sequence[str], file: str = "") -> list[Triad]:
     names = [named(cell) for cell in header]
     hint = tuple(word.casefold() for word in _WORD.findall(file.partition(".")[0]))
     names = [n if n.words or not n.axis else replace(n, words=hint) for n in names]
-    if [name.cell for name in names] == ONE_VECTOR:
-        pairs = zip(names[1:], "xyz", strict=True)
-        names = [names[0], *(replace(n, words=hint, axis=a) for n, a in pairs)]
-    names = _with_rolls(names)
+    if [name.cell for name in names] in (ONE_VECTOR, ONE_VECTOR[:3]):
+        pairs = zip(names[-3:], "xyz", strict=True)
+        names = [*names[:-3], *(replace(n, words=hint, axis=a) for n, a in pairs)]
+    names = _with_rolls(_with_elements(names))
     for position, name in enumerate(names):
         if name.axis:
             stems.setdefault(name.words, {}).setdefault(name.axis, position)
@@ -251,6 +260,27 @@ def _sureness(three: Sequence[Name], group: str, sure: Mapping[str, int], namele
     if any(sure.values()):
         return 2 if sure[group] and _fit(three, group) else sure[group]
     return int(nameless and _fit(three, group))
+
+
+def _with_elements(names: Sequence[Name]) -> list[Name]:
+    """The names; two columns that are called 1 and 2 are further elements of the one before them,
+    as in old tables of GoPro's: ``Gyroscope [rad/s]``, ``1``, ``2``.
+    """
+    found = list(names)
+    for k in range(len(names) - 2):
+        first, *others = names[k : k + 3]
+        if first.words and not first.axis and [n.cell.strip() for n in others] == ["1", "2"]:
+            three = zip((first, *others), "xyz", strict=True)
+            found[k : k + 3] = [replace(first, cell=n.cell, axis=a) for n, a in three]
+    return found
+
+
+def are_alike(names: Sequence[Name]) -> bool:
+    """Whether names may be those of one vector: what words of three letters they have are the same
+    ones. A track, a speed and a rate of climb are none.
+    """
+    long = [{w for w in name.words if len(w) > 2 and not w.isdigit()} for name in names]
+    return all(words == long[0] for words in long)
 
 
 def _with_rolls(names: Sequence[Name]) -> list[Name]:

@@ -62,6 +62,9 @@ BLOCKS = (0.04, 0.1, 0.2, 0.5, 1.0)
 ones, slow turns long ones, and of all that counts in which the two agree best."""
 
 
+TURN = 361.0
+"""deg; no pitch has more, however it is counted."""
+
 TRIES = 8
 """Steps of Newton's method to the scale of a gyro, at most."""
 
@@ -213,12 +216,15 @@ def _has_gravity(force: np.ndarray) -> bool:
 
 def angle_unit(angles: np.ndarray) -> UnitGuess:
     """The unit of roll, pitch and yaw (n, 3): where one begins anew behind a whole turn, by that;
-    else by their size, of which no pitch has more than a quarter of a turn.
+    else by their size, of which no pitch has more than a quarter of a turn. A yaw that runs on
+    behind whole turns began near zero; larger numbers are of a smaller unit.
     """
     known = angles[np.isfinite(angles).all(axis=1)]
     if not len(known):
         return UnitGuess(None, "there are no angles")
     largest, steps = np.abs(known).max(axis=0), np.abs(np.diff(known, axis=0))
+    if largest[1] > TURN or np.abs(known).min(axis=0).max() > 2 * TURN:
+        return UnitGuess(None, f"they go to {largest.max():.5g}: in hundredths of a degree?")
     turns = (("deg", 360.0), ("rad", 2 * np.pi))
     for unit, turn in turns:
         if np.any(np.abs(steps / turn - 1) < WRAP) and largest.max() < 1.1 * turn:

@@ -18,6 +18,7 @@ from pyimu.recording.guess.names import (
     TRUTHS,
     Name,
     angles,
+    are_alike,
     attitude,
     is_truth,
     named,
@@ -39,6 +40,7 @@ from pyimu.recording.guess.numbers import (
     time_unit,
     warmth_unit,
 )
+from pyimu.recording.optical import lines_of, question
 from pyimu.units import FREEZING, same_dimension
 
 MOST = 200_000
@@ -56,6 +58,9 @@ SAME_SIZE = 1e-3
 TURNED = 0.5
 """How far a vector of one size must go, as a part of it, for its size to be no sensor's: whoever
 turns an accelerometer shakes it too."""
+
+ZEROS = "every number of it is zero: was it logged?"
+"""Of a vector in which nothing is to be seen."""
 
 CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
 """Of a column of them."""
@@ -115,9 +120,10 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
         away = {k for at in attitudes for k in at.values()} | set(angles(reader.header).values())
         place = {} if away & set(place.values()) else place
         away |= set(place.values())
-        picked = _by_numbers(found, reader, numbers, period, away) | {"mag": picked["mag"]}
+        if not question(reader):
+            picked |= _by_numbers(found, reader, numbers, period, away)
     for group in ("accel", "gyro"):
-        if picked[group] is None:
+        if picked[group] is None and not question(reader):
             named_ones = [p for v in vectors for p in v.positions] + [*place.values()]
             picked[group] = _missing(found, group, reader, numbers, picked, period, named_ones)
     force = None if picked["accel"] is None else numbers.of([p for p, _ in picked["accel"]])
@@ -264,7 +270,9 @@ def _by_numbers(
     """
     time = {g.cell for g in found.guesses}
     at = [k for k in numbers.positions if reader.header[k] not in time and k not in away]
+    names = [named(cell) for cell in reader.header]
     runs = [at[i : i + 3] for i in range(len(at) - 2) if at[i + 2] - at[i] == 2]
+    runs = [run for run in runs if are_alike([names[k] for k in run])]
     if not runs or len(at) > 40:
         return {"accel": None, "gyro": None}
     table = numbers.of(at).reshape(-1, len(at))
@@ -286,7 +294,6 @@ def _by_numbers(
     rest.sort(key=lambda run: _array(reader.header[run[0]]) not in home)
     turning = [r for r in rest if rate_unit(values[r], values[accel], period).unit is not None]
     gyro = next(iter(turning or rest), None)
-    names = [named(cell) for cell in reader.header]
     picked: dict[str, Picked] = {"accel": [(k, names[k]) for k in accel], "gyro": None}
     if gyro is not None:
         picked["gyro"] = [(k, names[k]) for k in gyro]
@@ -431,7 +438,11 @@ def _unit(
     unit = units.pop() if len(units) == 1 else None
     if unit is not None and fits(unit, group):
         return UnitGuess(unit, f"the header says {picked[0][1].said}")
+    if unit is not None and group == "gyro" and same_dimension(unit, "rad") and unit != "1":
+        return UnitGuess(f"{unit}/s", f"the header says {picked[0][1].said}: a second, of a rate?")
     values = numbers.of([p for p, _ in picked])
+    if not np.any(np.nan_to_num(values)):
+        return UnitGuess(None, ZEROS)
     if group == "accel":
         guess = force_unit(values)
     elif group == "gyro":
@@ -482,7 +493,9 @@ def _reference(found: Proposal, reader: Reader, attitudes: Sequence[dict[str, in
     if at is None and len(attitudes) == 1 and not {"gyro", "accel"} & set(found.groups):
         at, why = attitudes[0], "four numbers of length one, and no sensor; body to world?"
     if at is None:
-        for four in attitudes:
+        of_bodies = lines_of(reader)
+        found.notes += of_bodies
+        for four in [] if of_bodies else attitudes:
             cells = ", ".join(reader.header[four[a]] for a in "wxyz")
             found.notes.append(
                 f"{cells} are left out: an estimate, or a reference's ref_q_w to ref_q_z?"

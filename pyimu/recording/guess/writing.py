@@ -67,6 +67,9 @@ def text_of(proposals: Sequence[Proposal], given: MapGiven = MapGiven()) -> str:
     elif first.timeless:
         lines += ["", "# No column rises as a time does; say the rate if there is none:"]
         lines += ["# " + _rate(100.0)]
+    if "time" in first.open_questions:
+        lines += ["", "# If the times count samples, leave them out below and say the rate:"]
+        lines += ["# " + _rate(100.0)]
     if "time_offset" in given.data:
         lines += ["", f"time_offset = {_value(given.data['time_offset'])}"]
     lines += ["", "[columns]", *_columns(first.guesses)]
