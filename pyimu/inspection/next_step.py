@@ -15,11 +15,12 @@ def next_step(found: Outcome, written: Path | None = None) -> list[str]:
     """Lines that say what to do next, the last a command as it is typed; none where the problem is
     one of the file, and says so.
 
-    ``written`` is the column map that was written for the log.
+    ``written`` is the column map that was written for the log. A log in several files that nobody
+    gave as a folder takes one.
     """
     if found.problem and found.kind != "guessed":
         return []
-    if found.readable:
+    if found.readable and (len(found.given) == 1 or found.given_map is not None):
         given = [] if found.given_map is None else ["--columns", str(found.given_map)]
         return ["next:", f"  {_use(found, given)}"]
     file = str(written or MAP)

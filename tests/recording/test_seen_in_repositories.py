@@ -242,6 +242,7 @@ def test_what_two_files_of_a_log_hold_is_taken_of_the_first(log, tmp_path):
     found = inspect([tmp_path / "Gyro.csv", tmp_path / "Acce.csv"])
     agrees(found.recording, log)
     np.testing.assert_allclose(found.recording.temperature, 31)
+    assert "--write-map map.toml" in found.report()  # one file alone would lose the other's
     found.write_map(tmp_path / "map.toml")
     again = read_recording(tmp_path / "Gyro.csv", columns=tmp_path / "map.toml")
     np.testing.assert_array_equal(again.accel, found.recording.accel)
