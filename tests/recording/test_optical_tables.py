@@ -6,6 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu import inspect
 from pyimu.recording.formats.matrix_attitude import attitudes
+from pyimu.recording.formats.optical import optical
 from pyimu.recording.log import read_reference
 
 ROWS, RATE = 400, 360.0
@@ -109,6 +110,24 @@ def test_a_matrix_and_its_transpose_are_opposite_turns():
     rows = Rotation.from_quat(attitudes(TURN.as_matrix().reshape(ROWS, 9).T), scalar_first=True)
     assert (back * rows).magnitude().max() < 1e-12
     assert np.isnan(attitudes(-columns)).all()  # a mirror is no rotation
+
+
+@pytest.mark.parametrize("write", [motive, vicon, qualisys])
+def test_a_head_that_is_cut_or_spoilt_is_read_or_none(write, tmp_path):
+    """Whatever is missing of it: nothing is raised."""
+    head = write(tmp_path).read_text().splitlines()[:12]
+    for row in range(len(head)):
+        optical(head[:row])
+        for at in range(0, len(head[row]), 7):
+            for spoilt in (head[row][:at], head[row][:at] + '"' + head[row][at:], "\0"):
+                optical([*head[:row], spoilt, *head[row + 1 :]])
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, 1e300])
+def test_elements_that_are_none_of_a_rotation_are_missing(bad):
+    columns = [*TURN.as_matrix().reshape(ROWS, 9).T]
+    columns[4] = np.where(np.arange(ROWS) == 7, bad, columns[4])
+    np.testing.assert_array_equal(np.isnan(attitudes(columns)[:, 0]), np.arange(ROWS) == 7)
 
 
 @pytest.mark.parametrize(

@@ -83,9 +83,10 @@ def attitudes(elements: Sequence[np.ndarray]) -> np.ndarray:
     NaN where they are no rotation, as zeros are where a body was not seen.
     """
     matrix = np.column_stack(elements).astype(float).reshape(-1, 3, 3).transpose(0, 2, 1)
+    matrix[~(np.abs(matrix) < 2).all(axis=(1, 2))] = 0.0  # of a rotation none is beyond 1
     product = np.einsum("nji,njk->nik", matrix, matrix)
     off = np.max(np.abs(product - np.eye(3)), axis=(1, 2))
-    seen = (off < ORTHOGONAL) & (np.linalg.det(np.nan_to_num(matrix)) > 0)
+    seen = (off < ORTHOGONAL) & (np.linalg.det(matrix) > 0)
     found = np.full((len(matrix), 4), np.nan)
     if seen.any():
         found[seen] = Rotation.from_matrix(matrix[seen]).as_quat(scalar_first=True)

@@ -44,7 +44,15 @@ def optical(head: Sequence[str]) -> Optical | None:
 
 
 def _cells(head: Sequence[str], separator: str) -> list[list[str]]:
-    return [[cell.strip() for cell in row] for row in csv.reader(head, delimiter=separator)]
+    """The cells of each line; none of one in which a quotation mark is left open."""
+    return [[cell.strip() for cell in _row(line, separator)] for line in head]
+
+
+def _row(line: str, separator: str) -> list[str]:
+    try:
+        return next(csv.reader([line], delimiter=separator), [])
+    except csv.Error:
+        return []
 
 
 def _motive(rows: Sequence[Sequence[str]]) -> Optical | None:
