@@ -213,6 +213,17 @@ def test_dates_as_programs_print_them(stamp):
     assert is_clock_time(stamp)
 
 
+def test_whole_seconds_are_divided_among_their_rows(log, tmp_path):
+    """A program that prints the date to the second, 100 rows in each; as where units are stated."""
+    time, gyro, accel = log
+    stamps = [f"Wed Dec 22 21:09:{int(t) + 10:02d} 2021" for t in time]
+    head = ",".join(["Time", *(f"Accel{a}" for a in AXES), *(f"Gyro{a}" for a in AXES)])
+    columns = [stamps, *(accel / STANDARD_GRAVITY).T, *np.degrees(gyro).T]
+    found = inspect(table(tmp_path / "imu.csv", [head], columns)).recording
+    agrees(found, log)
+    assert found.sample_rate == pytest.approx(100, rel=1e-6)
+
+
 def test_times_that_may_count_samples_can_be_left_out(log, tmp_path):
     time, gyro, accel = log
     head = ",".join(["Timestamp", *(f"a{a} (g)" for a in "xyz"), *(f"g{a} (dps)" for a in "xyz")])

@@ -191,7 +191,7 @@ def _time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None)
         values = Unwrapped().add(numbers.of([k]))
         if not names[k].is_time and _counts_rows(values):
             found.notes.append(f"{reader.header[k]} counts the rows, and is no time")
-        elif _rises(values):
+        elif _rises(values) or (k in clocks and _mean_rate(values) is not None):
             guess = CLOCK if k in clocks else _time_guess(names[k], values)
             candidates.append((k, values, guess))
     if not candidates:
@@ -210,7 +210,16 @@ def _time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None)
         if other != k:
             found.notes.append(f"{reader.header[other]} may be the time, too ({its.why})")
     found.add([Guess(reader.header[k], "time", guess.unit, guess.why)])
+    if k in clocks and not _rises(values):  # whole seconds, which reading divides among their rows
+        return 1 / (_mean_rate(values) or 1.0)
     return None if guess.unit is None else _period(values) * SECONDS[guess.unit]
+
+
+def _mean_rate(values: np.ndarray) -> float | None:
+    """Rows a second by times [s] that stand still for many rows, None where they fall or stay."""
+    known = values[np.isfinite(values)]
+    span = float(known[-1] - known[0]) if len(known) > 1 else 0.0
+    return (len(known) - 1) / span if span > 0 and np.all(np.diff(known) >= 0) else None
 
 
 def _rises(values: np.ndarray) -> bool:
