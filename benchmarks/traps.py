@@ -249,7 +249,7 @@ NAMED: dict[str, Callable[[Log, Closed], bool]] = {
     "wanders": names_wandering,
     "misread": names_misreading,
     "filter": names_filter,
-    "adapts": _by_finding("reference_lag", "reference_smoothed"),
+    "adapts": _by_finding("reference_adapts", "reference_lag", "reference_smoothed"),
     "mounting_slips": names_slipped_mount,
     "unblamed": names_nothing_else,
     "jitter": _by_finding("jitter"),

@@ -31,7 +31,7 @@ from pyimu.recording.reference.force import ORDER, reference_force
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.stamps import at_times
 from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
-from pyimu.recording.reference.unlagged import LAG
+from pyimu.recording.reference.unlagged import ADAPTS, LAG
 from pyimu.recording.reference.unsmoothed import SMOOTHED
 
 SETTLE = 32
@@ -50,7 +50,7 @@ MOVING = 0.2
 mounting and no clock, but its own noise."""
 
 
-OWN_LAG = frozenset({"time_offset", LAG})
+OWN_LAG = frozenset({"time_offset", LAG, ADAPTS})
 """Findings of a reference whose clock somebody has set by hand, or which lagged: what is late
 beside it is what they left."""
 
@@ -261,7 +261,7 @@ def _was_filtered(recording: Recording) -> bool:
     faster it is.
     """
     other = recording.reference
-    return other is not None and any(f.kind in (LAG, SMOOTHED) for f in other.findings)
+    return other is not None and any(f.kind in (LAG, ADAPTS, SMOOTHED) for f in other.findings)
 
 
 def accel_trial(recording: Recording, static: bool, latitude: float | None = None) -> Trial | None:

@@ -8,22 +8,19 @@ from functools import partial
 import numpy as np
 from scipy.spatial.transform import Rotation, RotationSpline
 
-from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.filled import measured
 from pyimu.recording.reference.jumps import jumps
 from pyimu.recording.reference.nodes import own_samples
-from pyimu.recording.reference.repeats import without_repeats
 from pyimu.recording.reference.sampling import through
-from pyimu.recording.reference.track import Track, fresh
+from pyimu.recording.reference.track import Track
 
 
 def attitude_track(source: Recording) -> Track:
     """The samples of ``ref_q`` that can be differentiated."""
-    rows = fresh(source.ref_q)
-    own = without_repeats(source.ref_q, rows)
+    own, findings = measured(one_sign(source.ref_q), "ref_q")
     track = Track(source.time, own, partial(_steps, source.ref_q))
-    if len(own) < len(rows):
-        track.findings.append(Finding("repeated_samples", "ref_q", len(rows) - len(own)))
+    track.findings += findings
     return track
 
 
