@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
+from pyimu.identification.fit.trial import gyro_trial
 from pyimu.recording.recording import Recording
-from pyimu.recording.reference.filled import without_filled
+from pyimu.recording.reference.filled import filled_in, resolution
 from pyimu.recording.reference.rate import reference_rate
 
 H, ROWS = 0.01, 4000
@@ -20,7 +21,8 @@ def noisy(seed=0, std=3e-4):
 
 
 def kept(values):
-    return without_filled(values[:, None], np.arange(len(values)))
+    values = values[:, None]
+    return np.flatnonzero(~filled_in(values, resolution(values)))
 
 
 def by_lines(values):
@@ -42,11 +44,15 @@ def test_rows_that_were_filled_in_are_no_samples(filled):
 
 @pytest.mark.parametrize("digits", [None, 3, 6])
 def test_what_was_measured_is_whole_however_few_its_digits(digits):
-    """By chance three numbers in 20,000 are as small, and no five in a row; a rest of few digits
-    repeats, and a curve without noise is smooth everywhere.
+    """A rest of few digits repeats, a curve without noise is smooth everywhere, and what shakes a
+    thousand times its noise at times, as beside a motor, scatters in between.
     """
-    rests = np.where(np.sin(0.2 * TIME) > 0.0, ANGLE, 0.0)
-    for values in (noisy(), ANGLE, rests, np.abs(ANGLE), noisy(std=1e-6)):
+    busy = np.sin(0.2 * TIME) > 0.0
+    shakes = noisy(std=1e-3) + busy * noisy(seed=1, std=1.0)
+    ramps = np.cumsum(np.clip(2.0 * np.sin(0.7 * TIME), -1.0, 1.0)) * H
+    steep = np.clip((TIME % 10.0 - 3.0) / 2.0, 0.0, 1.0)
+    quick = np.where(TIME < 20.0, np.sin(15.0 * TIME), steep)
+    for values in (noisy(), ANGLE, busy * ANGLE, np.abs(ANGLE), ramps, quick, shakes):
         seen = values if digits is None else np.round(values, digits)
         assert len(kept(seen)) == ROWS
 
@@ -58,3 +64,16 @@ def test_the_rate_is_unknown_where_an_attitude_was_filled_in():
     found = reference_rate(Recording.from_arrays("log", time=TIME, gyro=gyro, ref_q=q))
     assert np.isnan(found.rate[305:375]).all() and np.isfinite(found.rate[100:290]).all()
     assert {f.kind: f.count for f in found.findings}["filled_in"] == LOST.sum()
+
+
+def test_rows_of_a_gyro_that_were_filled_in_are_left_out():
+    """Beside a rate that is known, lines across 0.2 to 1.4 s of a motion are no samples; where one
+    meets what was measured that may look like a spike.
+    """
+    rng = np.random.default_rng(3)
+    rate = np.column_stack([np.gradient(ANGLE, H), 0 * ANGLE, 0 * ANGLE])
+    measured = rate + 1e-3 * rng.standard_normal(rate.shape)
+    gyro = np.column_stack([by_lines(v) for v in measured.T])
+    trial = gyro_trial(Recording.from_arrays("log", time=TIME, gyro=gyro, ref_rate=rate))
+    assert trial.left_out[LOST].all() and np.sum(trial.left_out & ~LOST) <= 2 * len(SPANS)
+    assert {f.kind: f.count for f in trial.findings} == {"filled_in": LOST.sum()}
