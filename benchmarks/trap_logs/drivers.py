@@ -23,7 +23,7 @@ def sensor_filtered_both_ways(rng) -> Log:
     low = butter(2, rng.uniform(8, 20), fs=scene.hz, output="sos")
     columns = _with_attitude(scene, scene.sensed())
     columns |= {name: sosfiltfilt(low, columns[name], axis=0) for name in ("gyro", "accel")}
-    return scene.log(columns, "unblamed")
+    return scene.log(columns, "no_delay", late=True)
 
 
 def bias_taken_out_online(rng) -> Log:
@@ -98,7 +98,7 @@ def two_units_averaged(rng) -> Log:
 
 
 def sensor_gaps_filled(rng) -> Log:
-    """The rows of the sensor are lost for 0.1 to 0.8 s six times, and a script drew lines across."""
+    """Rows of the sensor are lost for 0.1 to 0.8 s six times, and a script drew lines across."""
     scene = new_scene(rng)
     columns = _with_attitude(scene, scene.sensed())
     lost = np.zeros(len(scene.time), bool)

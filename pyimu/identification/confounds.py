@@ -33,7 +33,8 @@ def _beside_clock(e: Effect, sensor: Sensor) -> str:
     """Of a lag that was found beside clocks that were fitted with it."""
     return (
         f"it is told by how it damps what is quick; its delay, {_delay_of(e, sensor)}, is one with "
-        "the reference's clock, which was fitted beside it"
+        "the reference's clock, which was fitted beside it; samples that were filtered without "
+        "delay, or a reference that is turned ahead of its time, would show the same"
     )
 
 
