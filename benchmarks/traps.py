@@ -261,6 +261,7 @@ NAMED: dict[str, Callable[[Log, Closed], bool]] = {
     "jitter": _by_finding("jitter"),
     "gaps": _by_finding("gaps"),
     "spikes": _by_finding("spikes"),
+    "filled": _by_finding("filled_in"),
 }
 """By cause: whether a result names it."""
 

@@ -107,7 +107,7 @@ def sensor_gaps_filled(rng) -> Log:
     for name in ("gyro", "accel"):
         lines = [np.interp(scene.time, scene.time[~lost], v[~lost]) for v in columns[name].T]
         columns[name] = np.column_stack(lines)
-    return scene.log(columns, "unblamed")
+    return scene.log(columns, "filled")
 
 
 TRAPS = (

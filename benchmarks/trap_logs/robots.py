@@ -34,7 +34,7 @@ def visual_odometry(rng) -> Log:
     places = rotation.in_body(rotation.inverse(world), scale * scene.motion.position(time) + blur)
     seen: Columns = {"time": time, "ref_q": rotation.product(world, scene.attitude_at(time))}
     seen |= dict(zip(("ref_east", "ref_north", "ref_up"), (places + shift).T, strict=True))
-    return replace(scene.log(scene.sensed(), "unblamed"), references=(seen,))
+    return replace(scene.log(scene.sensed(), "jumps"), references=(seen,))
 
 
 def _headed(rng, heading: Callable[[Scene, np.ndarray], np.ndarray], hz, motion=rover) -> Log:
@@ -110,7 +110,7 @@ def occlusions_filled(rng) -> Log:
     for first in rng.integers(200, len(kept) - 200, 8):
         kept[first : first + int(rng.uniform(0.2, 1.5) / scene.h)] = False
     filled = rotation.between(scene.time[kept], q[kept], scene.time)
-    return scene.log(scene.sensed() | {"ref_q": filled}, "unblamed")
+    return scene.log(scene.sensed() | {"ref_q": filled}, "filled")
 
 
 def attitude_predicted(rng) -> Log:
