@@ -214,6 +214,11 @@ def names_filter(log: Log, found: Closed) -> bool:
     return found.verdict == "reference_unfit" or _finds(found, "reference_drift")
 
 
+def names_other_cause(log: Log, found: Closed) -> bool:
+    """What looks like a lag of the sensor, and each that is named says so."""
+    return all("filtered without delay" in a.note for a in found.added if a.effect in DELAYS)
+
+
 def names_nothing_else(log: Log, found: Closed) -> bool:
     """What no figure of the result names; it is enough that the sensor is not blamed."""
     return True
@@ -249,12 +254,14 @@ NAMED: dict[str, Callable[[Log, Closed], bool]] = {
     "wanders": names_wandering,
     "misread": names_misreading,
     "filter": names_filter,
-    "adapts": _by_finding("reference_lag", "reference_smoothed"),
+    "adapts": _by_finding("reference_adapts", "reference_lag", "reference_smoothed"),
     "mounting_slips": names_slipped_mount,
     "unblamed": names_nothing_else,
+    "no_delay": names_other_cause,
     "jitter": _by_finding("jitter"),
     "gaps": _by_finding("gaps"),
     "spikes": _by_finding("spikes"),
+    "filled": _by_finding("filled_in"),
 }
 """By cause: whether a result names it."""
 

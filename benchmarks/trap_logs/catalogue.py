@@ -6,12 +6,14 @@ from collections.abc import Callable
 
 from trap_logs import (
     clocks,
+    drivers,
     flights,
     frames,
     handling,
     mounts,
     places,
     references,
+    robots,
     samples,
     surroundings,
 )
@@ -31,6 +33,8 @@ TRAPS: dict[str, Trap] = {
         frames,
         handling,
         mounts,
+        drivers,
+        robots,
     )
     for trap in room.TRAPS
 }

@@ -12,7 +12,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import clock_of
 from pyimu.identification.search.forward import Investigation
 from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
-from pyimu.recording.reference.unlagged import HIGHEST, LAG
+from pyimu.recording.reference.unlagged import ADAPTS, HIGHEST, LAG
 from pyimu.recording.reference.unsmoothed import SMOOTHED
 from pyimu.report.numbers import joined, number
 
@@ -65,6 +65,14 @@ def _lagging(lags: list[dict], what: str) -> str:
     return f"{_of(what, lags)} lag as those behind a low-pass filter of {down_to}{cut_off} do"
 
 
+def _adapting(found: list[dict], what: str) -> str:
+    most = max(found, key=lambda f: f["time_constant"])
+    by, at = _time(most["time_constant"]), number(float(np.degrees(most["halves_at"])), 2)
+    adapts = f"a filter that adapts: by {by} at rest and half of that at {at} deg/s"
+    lags = "lags as one" if len(found) == 1 else "lag as those"
+    return f"{_of(what, found)} {lags} behind {adapts}"
+
+
 def _smooth(smoothed: list[dict], what: str) -> str:
     most = max(smoothed, key=lambda s: s["seconds"])
     below, are = number(most[HIGHEST]), "are" if what else "is"
@@ -101,6 +109,7 @@ PLACES = {"ref_east": "positions", "ref_velocity": "velocities"}
 
 SAID: dict[str, Callable[[list[dict], str], str]] = {
     LAG: _lagging,
+    ADAPTS: _adapting,
     SMOOTHED: _smooth,
     LATE: _late,
     SIDEWAYS: _sideways,

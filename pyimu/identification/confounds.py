@@ -14,7 +14,27 @@ from pyimu.report.numbers import joined
 def what_no_log_tells_apart(
     e: Effect, sensor: Sensor, trials: Iterable[Trial], alternatives: Collection[str] | None = None
 ) -> str:
-    """The note that goes with an effect of a sensor wherever it is named; empty where it has none.
+    """The note that goes with an effect of a sensor wherever it is named, if it has one."""
+    trials = list(trials)
+    own = _own_confound(e, sensor, trials, alternatives)
+    return "; ".join(filter(None, (own, _of_places(e, trials))))
+
+
+def _of_places(e: Effect, trials: Iterable[Trial]) -> str:
+    """Of a gain beside a force that was made of positions or velocities."""
+    made = any(t.place is not None and t.place.gravity_std > 0.0 for t in trials)
+    if e.stage != "gain" or e.mounting or not made:
+        return ""
+    return (
+        "positions of another size, as a single camera's odometry has them by some percent, show "
+        "much the same of a body that keeps level; its six faces at rest would tell"
+    )
+
+
+def _own_confound(
+    e: Effect, sensor: Sensor, trials: Iterable[Trial], alternatives: Collection[str] | None
+) -> str:
+    """What the effect itself is not told from.
 
     A turn of the whole triad is in doubt only where the reference's mounting is, and another form
     of a delay where it is among the ``alternatives``, if these are known.
@@ -33,7 +53,8 @@ def _beside_clock(e: Effect, sensor: Sensor) -> str:
     """Of a lag that was found beside clocks that were fitted with it."""
     return (
         f"it is told by how it damps what is quick; its delay, {_delay_of(e, sensor)}, is one with "
-        "the reference's clock, which was fitted beside it"
+        "the reference's clock, which was fitted beside it; samples that were filtered without "
+        "delay, or a reference that is turned ahead of its time, would show the same"
     )
 
 

@@ -49,6 +49,7 @@ SENTENCES = {
         "of the attitudes"
     ),
     "mount_slipped": "between {first:.5g} and {last:.5g} s",
+    "reference_adapts": ("by {time_constant:.3g} s at rest, half of that at {halves_at:.3g} rad/s"),
     "reference_smoothed": "as by {filter:} {seconds:.3g} s",
     "time_offset": "the column map moves the times by {offset:.12g} s",
     "rate_of_part": "the part's rate is {other_rate:.6g} Hz, the log's {rate:.6g} Hz",

@@ -20,6 +20,7 @@ MEANING = {
     "damaged": "the file is damaged; what can be read of it was read",
     "dropouts": "the logger lost messages in these spans",
     "end_left_out": "lines at the end that are no whole rows, a cut one or a remark: left out",
+    "filled_in": "rows on a smooth curve between others that scatter: no samples, and left out",
     "force_in_g": "gravity is 1 and should be 9.8: the numbers are in g, the header says m/s^2",
     "gaps": "rows are missing; nothing is filled in or joined over them",
     "gravity_at_rest": "the positions at rest, and gravity there, by which the force was judged",
@@ -69,6 +70,9 @@ MEANING = {
     "rate_of_part": "the part has another sample rate than the log; the log's counts",
     "rate_wanders": "the sample rate changes slowly: the times count, not the rows",
     "recognised": "the layout is known: columns and units follow from it",
+    "reference_adapts": (
+        "the reference lags less where it turns faster, as behind a filter that adapts; undone"
+    ),
     "reference_clock": "the reference's clock is off the sensor's by so much; it was taken out",
     "reference_frame": "the reference fits once it is turned: is it in another frame?",
     "reference_heading": "attitudes and positions count their headings from other directions",

@@ -9,6 +9,7 @@ import html
 import json
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -205,6 +206,17 @@ def test_exact_confound_is_said(effect):
     assert e.confound.of in note and e.confound.apart in note
     known = [replace(trial, free_rotation=False)]
     assert bool(what_no_log_tells_apart(e, sensor, known)) is (effect != "misalignment")
+
+
+@pytest.mark.parametrize(
+    "effect, said", [("scale_factor_nonlinearity", True), ("rate_ramp", False)]
+)
+def test_a_gain_beside_positions_may_be_their_size(effect, said):
+    sensor = Sensor("accel").with_values(effect)
+    for place in (SimpleNamespace(gravity_std=1e-3), None):
+        trial = SimpleNamespace(place=place, clock=None, free_rotation=True)
+        note = what_no_log_tells_apart(CATALOGUE[effect], sensor, [trial])
+        assert ("positions of another size" in note) is (said and place is not None)
 
 
 # Logs, time and origin

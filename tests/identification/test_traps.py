@@ -2,6 +2,8 @@
 benchmark.
 """
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import traps
@@ -11,6 +13,12 @@ from generators.tracked import TRACKED
 from trap_logs.catalogue import TRAPS
 
 STEP = 1e-4
+
+README = Path(traps.__file__).parents[1] / "README.md"
+
+
+def test_the_readme_counts_the_traps():
+    assert f"{len(TRAPS)} kinds in all" in README.read_text(encoding="utf-8")
 
 
 def spun(motion, time):

@@ -27,11 +27,12 @@ from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.quality.healing import healed, short_runs
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording, filled
+from pyimu.recording.reference.filled import FILLED, filled_in, resolution
 from pyimu.recording.reference.force import ORDER, reference_force
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.stamps import at_times
 from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
-from pyimu.recording.reference.unlagged import LAG
+from pyimu.recording.reference.unlagged import ADAPTS, LAG
 from pyimu.recording.reference.unsmoothed import SMOOTHED
 
 SETTLE = 32
@@ -50,7 +51,7 @@ MOVING = 0.2
 mounting and no clock, but its own noise."""
 
 
-OWN_LAG = frozenset({"time_offset", LAG})
+OWN_LAG = frozenset({"time_offset", LAG, ADAPTS})
 """Findings of a reference whose clock somebody has set by hand, or which lagged: what is late
 beside it is what they left."""
 
@@ -261,7 +262,7 @@ def _was_filtered(recording: Recording) -> bool:
     faster it is.
     """
     other = recording.reference
-    return other is not None and any(f.kind in (LAG, SMOOTHED) for f in other.findings)
+    return other is not None and any(f.kind in (LAG, ADAPTS, SMOOTHED) for f in other.findings)
 
 
 def accel_trial(recording: Recording, static: bool, latitude: float | None = None) -> Trial | None:
@@ -416,7 +417,8 @@ def _trial(
     if not axes:
         return None
     own, taken_off = y[:, list(axes)], None
-    repeats, bad = repeated(own), bad_samples(own, recording.segments)
+    repeats, drawn = repeated(own), filled_rows(own, recording.segments)
+    bad = bad_samples(own, recording.segments)
     if band_hz is not None:
         most = max(1, int(0.25 / (band_hz * recording.sample_period)) - 1)
         measured, y = y, np.array(y)
@@ -426,8 +428,9 @@ def _trial(
     bad = bad.any(axis=1)
     inside = covered if band_hz is None else covered & ~bad
     segments = [(a + i, a + j) for a, b in recording.segments for i, j in runs(inside[a:b])]
-    if repeats.any():
-        findings += (Finding("repeated_samples", kind, int(repeats.sum())),)
+    for what, rows in (("repeated_samples", repeats), (FILLED, drawn)):
+        if rows.any():
+            findings += (Finding(what, kind, int(rows.sum())),)
     other = () if recording.reference is None else recording.reference.findings
     findings += tuple(f for f in other if f.kind in (*OWN_LAG, SMOOTHED, LATE, SIDEWAYS))
     return Trial(
@@ -450,13 +453,24 @@ def _trial(
 
 
 def bad_samples(values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
-    """Flags (n, k) of samples that are missing, spikes, or repeat the row before.
+    """Flags (n, k) of samples that are missing, spikes, filled in, or repeat the row before.
 
     ``segments`` are the row ranges (start, stop) without gap.
     """
     missing = ~np.isfinite(values)
     known = np.where(missing, np.nan, values)
-    return missing | spikes(known, segments) | repeated(values)[:, None]
+    no_samples = repeated(values) | filled_rows(values, segments)
+    return missing | spikes(known, segments) | no_samples[:, None]
+
+
+def filled_rows(values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
+    """Rows (n,) that a program filled in where samples were lost."""
+    known, out = np.isfinite(values).all(axis=1), np.zeros(len(values), dtype=bool)
+    last_digit = resolution(values[known])
+    for a, b in segments:
+        rows = a + np.flatnonzero(known[a:b])
+        out[rows] = filled_in(values[rows], last_digit)
+    return out
 
 
 def repeated(values: np.ndarray) -> np.ndarray:

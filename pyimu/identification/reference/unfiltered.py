@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial, accel_trial
+from pyimu.identification.reference.adapts import without_adapting
 from pyimu.identification.reference.behind import without_filter
 from pyimu.identification.reference.behind_places import without_filter_of_places
 from pyimu.identification.reference.place import is_differentiated
@@ -25,7 +26,8 @@ def unfiltered_logs(
     ``trials`` are the gyro's of both, their references on the sensor's clock. A reference that was
     behind a filter has a finding that says so.
     """
-    found = {t.name: without_filter(t, sensor) for ts in trials for t in ts}
+    each = (t for ts in trials for t in ts)
+    found = {t.name: without_adapting(t) or without_filter(t, sensor) for t in each}
     undo = {name: one for name, one in found.items() if one is not None}
     if not undo:
         return None

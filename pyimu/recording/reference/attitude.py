@@ -8,22 +8,19 @@ from functools import partial
 import numpy as np
 from scipy.spatial.transform import Rotation, RotationSpline
 
-from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.filled import measured
 from pyimu.recording.reference.jumps import jumps
 from pyimu.recording.reference.nodes import own_samples
-from pyimu.recording.reference.repeats import without_repeats
 from pyimu.recording.reference.sampling import through
-from pyimu.recording.reference.track import Track, fresh
+from pyimu.recording.reference.track import Track
 
 
 def attitude_track(source: Recording) -> Track:
     """The samples of ``ref_q`` that can be differentiated."""
-    rows = fresh(source.ref_q)
-    own = without_repeats(source.ref_q, rows)
+    own, findings = measured(one_sign(source.ref_q), "ref_q", _turns)
     track = Track(source.time, own, partial(_steps, source.ref_q))
-    if len(own) < len(rows):
-        track.findings.append(Finding("repeated_samples", "ref_q", len(rows) - len(own)))
+    track.findings += findings
     return track
 
 
@@ -39,6 +36,11 @@ def cut_at_jumps(track: Track, source: Recording, recording: Recording) -> None:
 def _jumps(source: Recording, nodes: np.ndarray, recording: Recording):
     steps = _steps(source.ref_q, nodes)
     return jumps(recording.time, steps, source.time[nodes], recording.gyro)
+
+
+def _turns(q: np.ndarray) -> np.ndarray:
+    """Rotation vectors (m, 3) rad from each of attitudes (m, 4) to the next, added up."""
+    return np.vstack([np.zeros(3), np.cumsum(_steps(q, np.arange(len(q))), axis=0)])
 
 
 def _steps(q: np.ndarray, nodes: np.ndarray) -> np.ndarray:
@@ -61,7 +63,7 @@ def rate_through(source: Recording, nodes: np.ndarray) -> Callable[..., np.ndarr
     these are is of second order then.
     """
     curve, time = attitude_curve(source, nodes), source.time[nodes]
-    turns = np.vstack([np.zeros(3), np.cumsum(_steps(source.ref_q, nodes), axis=0)])
+    turns = _turns(source.ref_q[nodes])
     cubic, fifth = through(time, turns), through(time, turns, 5)
     return lambda at, order: curve(at, order) + fifth(at, order) - cubic(at, order)
 

@@ -28,6 +28,7 @@ from pyimu.recording.reference.attitude import (
 )
 from pyimu.recording.reference.band import coherence, trusted_band
 from pyimu.recording.reference.course import course_of, looks_like_degrees, mounted, upward
+from pyimu.recording.reference.filled import measured
 from pyimu.recording.reference.leaning import upward_through
 from pyimu.recording.reference.nodes import own_samples
 from pyimu.recording.reference.rocking import rate_about_z
@@ -199,10 +200,12 @@ def _from_heading(
 ) -> Reference:
     check_radians(source)
     heading, time = source.ref_heading, recording.time
-    known = fresh(heading[:, None])
+    known = np.isfinite(heading)
     unwrapped = np.full(len(source), np.nan)
     unwrapped[known] = np.unwrap(heading[known])
-    track = Track(source.time, known, lambda nodes: np.diff(unwrapped[nodes])[:, None])
+    rows, findings = measured(unwrapped[:, None], "ref_heading")
+    track = Track(source.time, rows, lambda nodes: np.diff(unwrapped[nodes])[:, None])
+    track.findings += findings
     rate = np.full((len(recording), 3), np.nan)
     for nodes in track.segments:
         rows = within(time, source.time[nodes])

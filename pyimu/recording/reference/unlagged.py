@@ -1,4 +1,6 @@
-"""A reference without the lag of the first-order low-pass filter behind which it was taken."""
+"""A reference without the lag of the first-order low-pass filter behind which it was taken, also of
+one that adapts.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from pyimu.errors import Finding
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.adapting import Adapting
 from pyimu.recording.reference.attitude import attitude_at, attitude_curve, attitude_track
 from pyimu.recording.reference.file import TRUTHS, at_log
 from pyimu.recording.reference.nodes import own_samples
@@ -18,6 +21,9 @@ from pyimu.recording.reference.sampling import through
 
 LAG = "reference_lag"
 """The finding of a reference that lagged."""
+
+ADAPTS = "reference_adapts"
+"""The finding of one that lagged less where it turned faster."""
 
 HIGHEST = "highest_frequency"
 """The detail of a finding that says up to what frequency [Hz] a reference may be used."""
@@ -36,9 +42,9 @@ def slope(time: np.ndarray, values: np.ndarray) -> np.ndarray:
     return through(time, values)(time, 1) if len(time) > 3 else np.zeros_like(values)
 
 
-def unlagged(recording: Recording, lag: float, motion: float = np.inf) -> Recording:
-    """The recording with the reference that went into a filter of time constant ``lag`` s: its
-    ``ref_rate``, or its ``ref_q``, which moves at frequencies up to ``motion`` Hz.
+def unlagged(recording: Recording, lag: float | Adapting, motion: float = np.inf) -> Recording:
+    """The recording with the reference that went into a filter of time constant ``lag`` s, or one
+    that adapts: its ``ref_rate``, or its ``ref_q``, which moves at frequencies up to ``motion`` Hz.
 
     It has samples of its own from then on, so that a rate is used in the band alone in which the
     sensor shows it: above the filter's its noise is what the lag has made larger. Of an attitude
@@ -52,11 +58,22 @@ def unlagged(recording: Recording, lag: float, motion: float = np.inf) -> Record
         quick, group, more = _attitude(source, lag, motion), "ref_q", {}
         if np.isfinite(motion):
             more = {HIGHEST: BEYOND * motion}
-    found = Finding(LAG, group, 1, {"time_constant": lag, **more})
+    if isinstance(lag, Adapting):
+        kind, size = ADAPTS, {"time_constant": lag.size, "halves_at": lag.halves}
+    else:
+        kind, size = LAG, {"time_constant": lag}
+    found = Finding(kind, group, 1, {**size, **more})
     return at_log(recording, replace(quick, findings=(*quick.findings, found)))
 
 
-def _rate(source: Recording, lag: float) -> np.ndarray:
+def _constants(lag: float | Adapting, rate: np.ndarray, h: float) -> np.ndarray | float:
+    """Time constants (n, 1) s at a ``rate`` (n, 3) rad/s, ``h`` s apart; one that adapts to none is
+    a number.
+    """
+    return lag.constants(rate, h)[:, None] if isinstance(lag, Adapting) else lag
+
+
+def _rate(source: Recording, lag: float | Adapting) -> np.ndarray:
     out = np.array(source.ref_rate)
     known = np.isfinite(out).any(axis=0)
     seen = np.isfinite(out[:, known]).all(axis=1)
@@ -64,12 +81,13 @@ def _rate(source: Recording, lag: float) -> np.ndarray:
         for a, b in runs(seen[start:stop]):
             rows = slice(start + a, start + b)
             rate = np.where(known, out[rows], 0.0)
-            quick = rate + lag * slope(source.time[rows], rate)
+            lags = _constants(lag, rate, source.sample_period)
+            quick = rate + lags * slope(source.time[rows], rate)
             out[rows] = np.where(known, quick, np.nan)
     return out
 
 
-def _attitude(source: Recording, lag: float, motion: float) -> Recording:
+def _attitude(source: Recording, lag: float | Adapting, motion: float) -> Recording:
     """q + lag q' of a unit quaternion q turns it by 2 atan(lag |w| / 2) about w in the body, as far
     as that is no quicker than ``motion`` Hz and some more.
 
@@ -82,7 +100,8 @@ def _attitude(source: Recording, lag: float, motion: float) -> Recording:
         curve = attitude_curve(own, nodes)
         rate = _below(curve(own.time[nodes], 1), own.time[nodes], CUT_OFF * motion)
         speed = np.linalg.norm(rate, axis=1, keepdims=True)
-        turn = rate * 2.0 * np.arctan(lag * speed / 2.0) / np.maximum(speed, 1e-300)
+        lags = _constants(lag, rate, float(np.median(np.diff(own.time[nodes]))))
+        turn = rate * 2.0 * np.arctan(lags * speed / 2.0) / np.maximum(speed, 1e-300)
         turned = curve(own.time[nodes]) * Rotation.from_rotvec(turn)
         quick[nodes] = turned.as_quat(scalar_first=True)
     found = replace(own, ref_q=quick)
