@@ -209,7 +209,7 @@ def _clipped(recording: Recording, part: Part, stds: list[float | None], given: 
         off[f"clipped_rate_std[{i + 1}]"] = max(turns, rates[i]) if std is None else std
         shocks = runs((np.abs(recording.accel[:, i]) >= limit) & (limit > 0))
         most = max(pushes, forces[i])
-        off[f"clipped_force_std[{i + 1}]"] = most * np.sqrt(max(len(list(shocks)), 1))
+        off[f"clipped_force_std[{i + 1}]"] = most * np.sqrt(max(len(shocks), 1))
     return {name: float(value) for name, value in off.items()}
 
 
