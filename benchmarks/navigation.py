@@ -119,7 +119,7 @@ def speed():
     part, n = pyimu.part("imt30"), 200_000
     blocks = {
         "15 states": ins_of_log(Layout(part)),
-        "17 states, its own rests": strapdown_ins(part),
+        "22 states, its own rests": strapdown_ins(part),
         "attitude filter": attitude_ukf(part),
     }
     for name, block in blocks.items():

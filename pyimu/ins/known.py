@@ -20,6 +20,9 @@ STEPS = 20
 over no more: at rest most samples are one of two or three values, which looks like a pile at the
 end of a range."""
 
+SAME = 1e-3
+"""Share by which the limits of a triad's axes may differ, by corrections of each."""
+
 LEAST = 0.5
 """Share of a declared range below which no sensor is clipped: a coarse converter shows a steady
 turn, the fastest of a log, by two or three values as well."""
@@ -70,9 +73,22 @@ def _with_true_limit(sensor: Sensor, own: Sensor, samples: np.ndarray) -> Sensor
         none = narrow <= STEPS * _step(column) or limit[axis] < LEAST * declared[axis]
         if limit[axis] != declared[axis] and none:
             limit[axis] = declared[axis]
+    limit = _of_triad(limit, samples)
     if not limit.any() and effect not in own.values:
         return Sensor(sensor.kind, {k: v for k, v in sensor.values.items() if k != effect})
     return sensor.with_values(effect, **{parameter: limit})
+
+
+def _of_triad(limit: np.ndarray, samples: np.ndarray) -> np.ndarray:
+    """The limits (3,) of a triad, whose axes have one range: an axis of which none was seen has
+    that of another that it reaches and never passes, however short its samples stay there.
+    """
+    found = limit.copy()
+    for axis, most in enumerate(np.nanmax(np.abs(samples), axis=0)):
+        near = limit[(limit > 0) & (np.abs(most / np.where(limit > 0, limit, np.inf) - 1) < SAME)]
+        if not limit[axis] and len(near):
+            found[axis] = most
+    return found
 
 
 def _step(column: np.ndarray) -> float:

@@ -25,8 +25,10 @@ from pyimu.ins.result import NavigationResult
 from pyimu.ins.stances import standing
 from pyimu.ins.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
 from pyimu.ins.track import Reference, Track, reference_of
+from pyimu.model.catalogue import CATALOGUE, read_off
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
+from pyimu.recording.clock import runs
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.quality.inspect import rate_of_part
 from pyimu.recording.recording import Recording
@@ -185,20 +187,30 @@ def _job(
     findings += [*checks.findings(recording, rest, gravity), *turns]
     updates = float(zupt != "off")
     drawn, stds = by_axis(recording, part)
-    clipped = _clipped(recording, stds, number("top_turn_rate", given["top_turn_rate"]))
+    clipped = _clipped(recording, part, stds, given)
     settings = {"zupt": updates, "zaru": updates} | clipped | given
     return Job(drawn, clean, part, rest, still, 0.0, gravity, False, zupt == "live", None, settings)
 
 
-def _clipped(recording: Recording, stds: list[float | None], top_turn_rate: float) -> dict:
-    """The filter's parameters of how far off the rates at the gyro's limit may be.
+def _clipped(recording: Recording, part: Part, stds: list[float | None], given: dict) -> dict:
+    """The filter's parameters of how far off rates and forces at the sensors' limits may be.
 
-    Where nothing tells how they go on beyond it: by the top turn rate, and by the limit of a body
-    that turns faster than that.
+    Where nothing tells how rates go on beyond the limit, by ``stds``: by the top turn rate, and by
+    the limit of a body that turns faster than that. Forces beyond it are those of shocks, which
+    are alike, as each step of a walker is: N of them that are off to the same side would be taken
+    for something that lasts, unless they tell together no more than one.
     """
-    most = np.nanmax(np.abs(recording.gyro), axis=0)
-    off = [max(top_turn_rate, m) if std is None else std for std, m in zip(stds, most, strict=True)]
-    return {f"clipped_rate_std[{i + 1}]": float(std) for i, std in enumerate(off)}
+    turns, pushes = (number(n, given[n]) for n in ("top_turn_rate", "top_acceleration"))
+    rates, forces = (np.nanmax(np.abs(s), axis=0) for s in (recording.gyro, recording.accel))
+    effect, parameter = read_off(CATALOGUE.values(), "ceiling")
+    limits = np.broadcast_to(part.accel.values.get(effect, {}).get(parameter, 0.0), 3)
+    off = {}
+    for i, (std, limit) in enumerate(zip(stds, limits, strict=True)):
+        off[f"clipped_rate_std[{i + 1}]"] = max(turns, rates[i]) if std is None else std
+        shocks = runs((np.abs(recording.accel[:, i]) >= limit) & (limit > 0))
+        most = max(pushes, forces[i])
+        off[f"clipped_force_std[{i + 1}]"] = most * np.sqrt(max(len(shocks), 1))
+    return {name: float(value) for name, value in off.items()}
 
 
 def _tracks(

@@ -1,11 +1,13 @@
 """The unit ``StrapdownIns``: the bits of Python in every form, and what it can be told."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from built import built
 from navigation_cases import SHORT, calibrated, declared, noisy, perfect, white
 
-from pyimu.fmu import FORMS, simulate, simulate_blocks
+from pyimu.fmu import FORMS, build_fmus, simulate, simulate_blocks
 from pyimu.ins import run, strapdown_ins
 from pyimu.ins.filter.layout import Layout
 from pyimu.ins.filter.variables import INPUTS
@@ -49,6 +51,27 @@ def test_the_unit_gives_the_bits_of_a_run(fmus, unit, log, form, zupt):
     )
     assert found.still.any()
     np.testing.assert_array_equal(y[1:], found.filter.y)
+
+
+def test_the_unit_knows_of_wheels_what_a_run_does(log, tmp_path):
+    """Their scale, delay and arm, and how the vehicle crabs: as it is built, in C and in Python."""
+    unit, driven = strapdown_ins(white(calibrated())), log.time > 5.0
+    seen = (np.arange(len(log)) % 10 == 0) & driven
+    speed = np.where(seen, 1.02 * np.linalg.norm(log.ref_velocity, axis=1), np.nan)
+    log = replace(log, stationary=None, speed=speed, speed_std=np.full(len(log), 0.01))
+    found = run(log, white(calibrated()), method="filter", zupt="live", nhc=True)
+    u, at = (
+        rows(replace(log, stationary=np.zeros(len(log)))),
+        {v.name: i for i, v in enumerate(INPUTS)},
+    )
+    u[:, at["speed_valid"]], u[seen, at["speed"]] = seen, speed[seen]
+    u[:, at["speed_variance"]] = 0.01**2
+    given = {"start_values": dict(found.settings), "sample_period": log.sample_period}
+    assert given["start_values"]["speed_late_std"] > 0
+    (fmu,) = build_fmus(unit, tmp_path, (2,))
+    y = simulate(fmu, u, **given)
+    np.testing.assert_array_equal(y[1:], found.filter.y)
+    assert found.filter.scalar("speed_nis").any() and found.filter.scalar("nhc_nis").any()
 
 
 def test_a_measured_position_and_speed_pull_the_estimate(unit, log):

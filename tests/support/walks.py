@@ -10,6 +10,9 @@ G = 9.80665
 FINE = 4
 """Steps of the integration in a sample."""
 
+FALL, SOLE = 0.15, 0.02
+"""s; over which a foot gains the speed with which it lands, and in which its sole stops it."""
+
 
 @dataclass
 class Walk:
@@ -32,10 +35,12 @@ def walk(
     pitch: float = 0.9,
     hz: float = 200.0,
     roll: float = 0.0,
+    strike: float = 0.0,
 ) -> Walk:
     """Strides of 1.2 m along a wide curve, after 8 s of standing. The toes go down by ``pitch`` rad
     as the foot leaves the ground, and up before it is set down. In a stance it turns by rates of up
-    to ``roll`` rad/s.
+    to ``roll`` rad/s. It lands at about ``strike`` m/s, forward and downward, and stops in ``SOLE``
+    s.
     """
     rng = np.random.default_rng(seed)
     t = np.arange(0.0, seconds, 1 / hz / FINE)
@@ -52,6 +57,12 @@ def walk(
         place[rows.stop :] = place[rows.start] + step
         place[rows] = place[rows.start] + smooth[:, None] * step
         place[rows, 2] += 2 * (u * (1 - u)) ** 2
+        speed = strike * (1 + 0.3 * rng.normal()) if strike else 0.0
+        place += _landing(t - at - own, speed)[:, None] * [
+            0.8 * np.cos(yaw),
+            0.8 * np.sin(yaw),
+            -0.6,
+        ]
         angles[rows.start :, 0] = yaw + turn
         angles[rows, 0] = yaw + turn * smooth
         angles[rows, 1] += pitch * np.sin(2 * np.pi * u) * np.sin(np.pi * u) ** 2
@@ -70,3 +81,19 @@ def walk(
     ends = np.arange(1, n + 1) * FINE
     stood = stands[: n * FINE].reshape(n, FINE).all(axis=1)
     return Walk(t[ends], *mean, place[ends], stood)
+
+
+def _landing(after: np.ndarray, speed: float) -> np.ndarray:
+    """m; what a landing at ``speed`` m/s adds to the place, at times ``after`` it in s: nothing
+    before the fall nor after the stop. The velocity is that of a fall, which grows evenly squared,
+    and of a stop, half a wave of force, less the even motion that takes its way back.
+    """
+    out, way = np.zeros(len(after)), speed * (FALL / 3 + SOLE / 2)
+    falls, stops = (after >= -FALL) & (after < 0), (after >= 0) & (after < SOLE)
+    u, w = after[falls] / FALL + 1, after[stops] / SOLE
+    out[falls] = speed * FALL * u**3 / 3
+    out[stops] = speed * (FALL / 3 + SOLE * (w + np.sin(np.pi * w) / np.pi) / 2)
+    whole = (after >= -FALL) & (after < SOLE)
+    x = (after[whole] + FALL) / (FALL + SOLE)
+    out[whole] -= way * (10 * x**3 - 15 * x**4 + 6 * x**5)
+    return out

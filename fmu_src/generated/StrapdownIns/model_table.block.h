@@ -7,33 +7,33 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{06a93436-dede-8bb0-0486-d2f266542875}"
-#define MODEL_TOKEN_FMI3 "{b5b79ce5-8f09-3063-0352-51af95aef47d}"
+#define MODEL_TOKEN_FMI2 "{832837fb-a2aa-159c-8dee-3ceb63a9cbf6}"
+#define MODEL_TOKEN_FMI3 "{1b527c47-f126-5156-6fc2-382a804ae0df}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 21,
-    N_PARAMETERS = 44,
+    N_PARAMETERS = 52,
     N_OUTPUTS = 43,
-    N_STATES = 289,
+    N_STATES = 399,
     N_CONSTANTS = 0,
     N_NOISE = 0,
-    N_VARIABLES = 66
+    N_VARIABLES = 72
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 1963 };
+enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 2857 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 607017 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 456121 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 607017 };
+enum { MODEL_MOST_SAMPLES = 456121 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 607017.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 456121.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
@@ -68,13 +68,19 @@ static const BlockVariable variables[] = {
     {"lever_arm", KIND_REAL, ROLE_FIXED, 22, 3, -INFINITY, INFINITY},
     {"antenna", KIND_REAL, ROLE_FIXED, 25, 3, -INFINITY, INFINITY},
     {"clipped_rate_std", KIND_REAL, ROLE_TUNABLE, 28, 3, 0.0, INFINITY},
-    {"top_speed", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.001, INFINITY},
-    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.001, INFINITY},
-    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.001, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 34, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 37, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 38, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 41, 3, 0.0, INFINITY},
+    {"clipped_force_std", KIND_REAL, ROLE_TUNABLE, 31, 3, 0.0, INFINITY},
+    {"top_speed", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.001, INFINITY},
+    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.001, INFINITY},
+    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.001, INFINITY},
+    {"speed_scale_std", KIND_REAL, ROLE_FIXED, 37, 1, 0.0, INFINITY},
+    {"speed_late_std", KIND_REAL, ROLE_FIXED, 38, 1, 0.0, INFINITY},
+    {"lever_arm_std", KIND_REAL, ROLE_FIXED, 39, 1, 0.0, INFINITY},
+    {"crab_std", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
+    {"crab_time", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.001, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 42, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 45, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 46, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 49, 3, 0.0, INFINITY},
     {"q", KIND_REAL, ROLE_OUTPUT, 0, 4, -INFINITY, INFINITY},
     {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
@@ -102,12 +108,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 65,
+    SAMPLE_PERIOD = 71,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.01};
-static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.02, 0.0, 0.1, 0.01, 10.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

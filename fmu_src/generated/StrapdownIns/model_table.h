@@ -7,29 +7,29 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{3b437102-8d02-d738-6d07-801583a824b7}"
-#define MODEL_TOKEN_FMI3 "{76b1a8fe-e755-415f-81b9-a8ae0cbc7f32}"
+#define MODEL_TOKEN_FMI2 "{ea8e725f-0783-368d-fa30-5ccc68c91e23}"
+#define MODEL_TOKEN_FMI3 "{9e5761a0-763f-38a6-ff17-f9ab97f3dd1f}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 21,
-    N_PARAMETERS = 44,
+    N_PARAMETERS = 52,
     N_OUTPUTS = 43,
-    N_STATES = 289,
+    N_STATES = 399,
     N_CONSTANTS = 0,
     N_NOISE = 0,
-    N_VARIABLES = 110
+    N_VARIABLES = 118
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 1963 };
+enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 2857 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 607017 };
+enum { MODEL_MOST_SAMPLES = 456121 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
@@ -85,19 +85,27 @@ static const BlockVariable variables[] = {
     {"clipped_rate_std[1]", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
     {"clipped_rate_std[2]", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
     {"clipped_rate_std[3]", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, INFINITY},
-    {"top_speed", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.001, INFINITY},
-    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.001, INFINITY},
-    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.001, INFINITY},
-    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 34, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 35, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 36, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 37, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 38, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 39, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 42, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 43, 1, 0.0, INFINITY},
+    {"clipped_force_std[1]", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},
+    {"clipped_force_std[2]", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
+    {"clipped_force_std[3]", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, INFINITY},
+    {"top_speed", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.001, INFINITY},
+    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.001, INFINITY},
+    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.001, INFINITY},
+    {"speed_scale_std", KIND_REAL, ROLE_FIXED, 37, 1, 0.0, INFINITY},
+    {"speed_late_std", KIND_REAL, ROLE_FIXED, 38, 1, 0.0, INFINITY},
+    {"lever_arm_std", KIND_REAL, ROLE_FIXED, 39, 1, 0.0, INFINITY},
+    {"crab_std", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
+    {"crab_time", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.001, INFINITY},
+    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 42, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 43, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 44, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 45, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 46, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 47, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 48, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 49, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 50, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 51, 1, 0.0, INFINITY},
     {"q[1]", KIND_REAL, ROLE_OUTPUT, 0, 1, -INFINITY, INFINITY},
     {"q[2]", KIND_REAL, ROLE_OUTPUT, 1, 1, -INFINITY, INFINITY},
     {"q[3]", KIND_REAL, ROLE_OUTPUT, 2, 1, -INFINITY, INFINITY},
@@ -146,12 +154,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 109,
+    SAMPLE_PERIOD = 117,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.01};
-static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.02, 0.0, 0.1, 0.01, 10.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

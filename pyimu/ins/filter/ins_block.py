@@ -61,15 +61,16 @@ REPORT = len(KINDS)
 
 def strapdown_ins(part: Part, nhc: bool = True, detects: bool = True) -> Block:
     """The block ``StrapdownIns`` of a part; with ``nhc`` it can take a vehicle's constraint, which
-    then is the parameter of that name, at first off. Where it ``detects``, it finds rests by
-    itself, and is told of others.
+    then is the parameter of that name, at first off, and estimates what lasts of the errors of its
+    wheels: of a measured speed and of the point that does not slip. Where it ``detects``, it finds
+    rests by itself, and is told of others.
 
     Attitude, velocity and position from gyro and accelerometer by strapdown integration, corrected
     at rests (zero-velocity and zero-angular-rate updates), by a vehicle's wheels, and by a measured
     speed, velocity or position; 15 errors are estimated, and the scale factors and misalignments
     that the part leaves open.
     """
-    return _block(Layout(part, nhc, detects), recorded=False, constrained=False)
+    return _block(Layout(part, nhc, detects, wheels=nhc), recorded=False, constrained=False)
 
 
 @lru_cache(maxsize=16)

@@ -203,7 +203,7 @@ class Layout:
         judged = rest_judged.SIZE * self.detects
         pushed = 3 * self.wheels
         kept = len(self.compensation.start), window, judged
-        return (self.held, 3, 3, 3, 3, pushed, 1, 3, 1, 1, *kept)
+        return (self.held, 3, 3, 3, 3, pushed, 1, 3, 3, 1, *kept)
 
     @property
     def begun(self) -> int:
@@ -249,8 +249,8 @@ class Memory:
     ``mean_rate`` (3,) in body axes that of the last tenths of a second; ``counted`` (3,) in world
     axes the velocity that counts (``weight``); ``mean_force`` (3,) in body axes that of the time by
     which a measured speed may be late, empty without wheels; ``unturned`` whether it did not turn;
-    ``gyro_lost`` (3,) and ``accel_lost`` s, for how long an axis and the triad were lost; ``begun``
-    whether there was any row; ``sensors`` is the compensation's own; ``window`` and ``judged`` are
+    ``gyro_lost`` and ``accel_lost`` (3,) s, for how long an axis was lost; ``begun`` whether there
+    was any row; ``sensors`` is the compensation's own; ``window`` and ``judged`` are
     those of ``rest_window`` and ``rest_judged``, empty where the filter does not look for rests.
     """
 

@@ -92,6 +92,10 @@ TURN_TIME = 1.0
 """s; so long a turn is taken to last on during which the gyro was lost: of an axis without numbers
 the last rate fades out in that time."""
 
+SHOCK = 0.1
+"""s; so long a force may be beyond the accelerometer's range, as that of a step or a stone is: what
+stays there longer is stuck, and no number. Assumed."""
+
 LASTS = (10 / 3, 10.0)
 """s; a rest and a leg. Over them white noise and random walk stand for the part's correlated noise,
 of which a rest takes off what came before."""
@@ -100,9 +104,9 @@ of which a rest takes off what came before."""
 @dataclass(frozen=True)
 class Sample:
     """A row: what was measured, in place of a missing number its last good one (``held``); ``rate``
-    and ``force`` (3,) without the part's errors; which axes of the gyro (3,) and whether the
-    accelerometer are ``lost``, 0 or 1, and which of the gyro's have a number (``there``): the lost
-    ones among them are beyond their range; whether the body is at rest (``still``), does not turn
+    and ``force`` (3,) without the part's errors; which axes of gyro and accelerometer (3,) are
+    ``lost``, 0 or 1, and which have a number (``rate_there``, ``force_there``): the lost ones among
+    them are beyond their range; whether the body is at rest (``still``), does not turn
     (``unturned``), or is now seen to have ``left`` a rest; whether its position is measured
     (``placed``); the compensation's memory, the window's, and what judges it.
     """
@@ -112,7 +116,8 @@ class Sample:
     force: ca.SX
     gyro_lost: ca.SX
     accel_lost: ca.SX
-    there: ca.SX
+    rate_there: ca.SX
+    force_there: ca.SX
     still: ca.SX
     unturned: ca.SX
     left: ca.SX
@@ -124,7 +129,12 @@ class Sample:
     @property
     def lost(self):
         """Whether anything of it is lost, 0 or 1."""
-        return ca.fmax(ca.mmax(self.gyro_lost), self.accel_lost)
+        return ca.fmax(ca.mmax(self.gyro_lost), ca.mmax(self.accel_lost))
+
+    @property
+    def blind(self):
+        """Whether an axis of the accelerometer has no number, 0 or 1."""
+        return 1 - ca.mmin(self.force_there)
 
 
 def settings_of(layout: Layout, p) -> Settings:
@@ -157,12 +167,13 @@ def read(layout: Layout, memory: Memory, q, bias, u, settings: Settings, h) -> S
     )
     fades = ca.if_else(good[GYRO], 1, ca.exp(-memory.gyro_lost / TURN_TIME))
     gyro_lost = 1 - good[GYRO] * (ca.densify(gyro_lost) <= 0.5)
-    accel_lost = 1 - ca.mmin(good[ACCEL]) * (ca.mmax(ca.densify(accel_lost)) <= 0.5)
+    accel_lost = 1 - good[ACCEL] * (ca.densify(accel_lost) <= 0.5)
     still = is_finite(u[STATIONARY]) * (u[STATIONARY] > 0.5)
     rate = bias + fades * (rate - bias)
     kept = sensors, memory.window, memory.judged
     none, placed = ca.SX(0), u[POSITION_VALID] > 0.5
-    lost = gyro_lost, accel_lost, good[GYRO]
+    there = good[ACCEL] * (memory.accel_lost < SHOCK)
+    lost = gyro_lost, accel_lost, good[GYRO], there
     return Sample(held, rate, force, *lost, still, still, none, placed, *kept)
 
 
@@ -207,7 +218,7 @@ def predicted(
     """
     x, shifted = _centred(x, sample)
     rest = memory.unturned * sample.unturned * (settings.scalar["zaru"] > 0)
-    blind = ca.if_else(sample.accel_lost, 1, 0)
+    blind = ca.if_else(sample.blind, 1, 0)
     turning = 1 - rest
     earth = settings.earth
     still_rate = quaternion.rotate(quaternion.conjugate(x.q), earth)
@@ -449,17 +460,21 @@ def _unseen(x: State, step: Step, memory: Memory, sample: Sample, settings: Sett
     times T, half a turn at most, and beyond the range by T times what the rates there may be off;
     without a force the velocity by the top acceleration times T, and
     once that is the top speed, nothing is known of the velocity but that: the position is then off
-    by T times it.
+    by T times it. Beyond the accelerometer's range the velocity is off along its axis by T times
+    what the forces there may be off.
     """
     at, p = settings.scalar, x.covariance
-    turned, gone = _gone_for(memory, sample, h)
-    off = ca.vertcat(*[at[f"clipped_rate_std[{i}]"] for i in (1, 2, 3)])
-    rate = ca.if_else(sample.there * (off > 0), off, at["top_turn_rate"])
+    turned, pushed = _gone_for(memory, sample, h)
+    rate = _beyond("clipped_rate_std", "top_turn_rate", sample.rate_there, settings)
     wider = ca.if_else(rate * turned < ca.pi, rate**2 * _growth(turned, h), 0)
     # An axis that lies askew by a degree or two makes a tilt of a large turn. As one error the
     # two would let a tilt that is seen at the next rest tell the turn, fifty times as large.
     wider = (step.axes**2) @ wider
     p = p + step.by_turn @ ca.diag(wider) @ step.by_turn.T
+    force = _beyond("clipped_force_std", "top_acceleration", sample.force_there, settings)
+    wider = (1 - sample.blind) * force**2 * _growth(pushed, h)
+    p[VELOCITY, VELOCITY] = p[VELOCITY, VELOCITY] + step.axes @ ca.diag(wider) @ step.axes.T
+    gone = ca.mmax(pushed * (1 - sample.force_there))
     most, grown = at["top_speed"], _growth(gone, h)
     anew = at["top_acceleration"] * gone >= most
     wider = ca.if_else(anew, 0, at["top_acceleration"] ** 2 * grown)
@@ -473,13 +488,21 @@ def _unseen(x: State, step: Step, memory: Memory, sample: Sample, settings: Sett
     return replace(x, velocity=keep * x.velocity, covariance=p)
 
 
+def _beyond(name: str, top: str, there, settings: Settings):
+    """How far off each axis (3,) of a sensor that is lost may be: where it is ``there``, beyond its
+    range, as the parameter of that ``name`` says, else by the ``top`` of the body.
+    """
+    off = ca.vertcat(*[settings.scalar[f"{name}[{i}]"] for i in (1, 2, 3)])
+    return ca.if_else(there * (off > 0), off, settings.scalar[top])
+
+
 def _growth(gone, h):
     """By how much the square of the ``gone`` s has grown in the sample; 0 where nothing is lost."""
     return ca.if_else(gone > 0, h * (2 * gone - h), 0)
 
 
 def _gone_for(memory: Memory, sample: Sample, h) -> tuple:
-    """For how many s each axis of the gyro (3,) and the accelerometer have been lost."""
+    """For how many s each axis (3,) of gyro and accelerometer has been lost."""
     lost = (memory.gyro_lost, sample.gyro_lost), (memory.accel_lost, sample.accel_lost)
     return tuple((before + h) * now for before, now in lost)
 
@@ -488,8 +511,8 @@ def remembered(memory: Memory, sample: Sample, motion: tuple, h) -> Memory:
     """The memory after a sample, with the ``motion``: mean rate, velocity that counts, and mean
     force.
     """
-    force = ca.if_else(sample.accel_lost, memory.force, sample.force)
-    begun = ca.fmax(memory.begun, 1 - sample.accel_lost)
+    force = ca.if_else(sample.blind, memory.force, sample.force)
+    begun = ca.fmax(memory.begun, 1 - ca.mmax(sample.accel_lost))
     gone = _gone_for(memory, sample, h)
     kept = sample.sensors, sample.window, sample.judged
     unturned = sample.unturned
@@ -509,7 +532,8 @@ def empty(layout: Layout, settings: Settings) -> Memory:
         ca.vertcat(0, 0, gravity)[: 3 * layout.wheels],
         ca.SX(0),
         ca.SX.zeros(3),
-        *[ca.SX(0)] * 2,
+        ca.SX.zeros(3),
+        ca.SX(0),
         ca.SX(ca.DM(layout.compensation.start)),
         ca.SX.zeros(rest_window.SIZE * layout.detects),
         ca.SX.zeros(rest_judged.SIZE * layout.detects),

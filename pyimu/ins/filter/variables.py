@@ -135,6 +135,15 @@ SETTINGS = (
             "0: `top_turn_rate`",
         )
     ),
+    *(
+        replace(v, minimum=0.0)
+        for v in array(
+            "clipped_force_std",
+            "m/s^2",
+            "standard deviation of the forces beyond the accelerometer's limit, likewise; 0: "
+            "`top_acceleration`",
+        )
+    ),
     _setting("top_speed", "m/s", "largest speed; what a gap in the samples may hide", 2.0, 1e-3),
     _setting("top_acceleration", "m/s^2", "largest acceleration, likewise", 5.0, 1e-3),
     _setting("top_turn_rate", "rad/s", "largest turn rate, likewise", 2.0, 1e-3),

@@ -1,0 +1,63 @@
+"""An accelerometer that is driven to its limit by shocks, as on a walker's foot: what it shows
+counts, and the velocity is as unsure as what lies beyond."""
+
+from dataclasses import replace
+
+import numpy as np
+from navigation_cases import calibrated, declared, noisy, perfect, white
+from scipy.stats import chi2
+from walks import G, walk
+
+from pyimu import Recording
+from pyimu.ins import run
+from pyimu.ins.known import known_part
+from pyimu.ins.stops import rest_at_start
+from pyimu.rover.trajectory import Drive
+
+LIMIT, SECONDS = 4 * G, 40.0
+
+
+def stepped(seed):
+    """A walk whose landings are beyond the range, and where it ends (2,) m."""
+    own, rng = walk(seed, seconds=SECONDS, strike=1.0), np.random.default_rng(seed)
+    noise = [std * rng.standard_normal((len(own.time), 3)) for std in (1.4e-3, 0.03)]
+    accel = np.clip(own.force + noise[1], -LIMIT, LIMIT)
+    return Recording.from_arrays(time=own.time, gyro=own.rate + noise[0], accel=accel), own
+
+
+def test_a_walk_with_clipped_landings_ends_where_it_claims():
+    """The squares are those of as many normal numbers: one in 10,000 is larger. With no force taken
+    for what lies beyond the range and 5 m/s^2 claimed of it, the mean square was 240."""
+    total = 0.0
+    for seed in (5000, 5001):
+        log, own = stepped(seed)
+        first = own.place[np.argmax(np.linalg.norm(own.place[:, :2], axis=1) > 0.5)]
+        yaw = float(np.arctan2(first[1], first[0]))
+        track = run(log, method="filter", heading0=yaw).tracks["filter"]
+        off, std = (track.position[-1] - own.place[-1])[:2], track.position_std[-1, :2]
+        both = track.correlation[-1] * std[0] * std[1]
+        spread = np.array([[std[0] ** 2, both], [both, std[1] ** 2]])
+        total += off @ np.linalg.solve(spread, off)
+    assert total < chi2.isf(1e-4, 4)
+
+
+def test_the_axes_of_a_triad_have_one_range():
+    """One is at its limit for a sample at a time, as no reader sees by itself."""
+    log, _ = stepped(5000)
+    part = known_part(None, log, rest_at_start(log, None, G))
+    limits = part.accel.values["saturation"]["limit"]
+    most = np.abs(log.accel).max(axis=0)
+    np.testing.assert_array_equal(limits > 0, most >= LIMIT)
+
+
+def test_what_stays_at_the_limit_is_no_shock():
+    """A sensor that is stuck there for 2 s pushes nobody to 80 m/s."""
+    drive = Drive(legs=1, stops=3.0, first_rest=5.0)
+    log = declared(noisy(perfect(drive), white(calibrated()), 1), drive)
+    part = calibrated()
+    values = part.accel.values | {"saturation": {"limit": np.full(3, LIMIT)}}
+    part = part.with_sensor(replace(part.accel, values=values))
+    accel = log.accel.copy()
+    accel[(log.time > 6.0) & (log.time < 8.0), 0] = LIMIT
+    found = run(replace(log, accel=accel), part, method="filter").filter
+    assert np.abs(found.vector("velocity")).max() < 10.0
