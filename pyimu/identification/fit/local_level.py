@@ -84,7 +84,7 @@ def likeliest(parts: Sequence[Rows], least: float) -> tuple[float, float]:
     whole = seen.in_means(1)
     tried = seen.tried(float(np.log(LOWEST / count**2)), step)
     best = max(tried, key=lambda x: tried[x])
-    near = seen.in_means(_many(best + APART))
+    near = seen.in_means(many_rows(best + APART))
     found = minimize_scalar(
         lambda x: near.lost(np.exp(x) / step)[0],
         bounds=(best - APART, best + APART),
@@ -98,8 +98,10 @@ def likeliest(parts: Sequence[Rows], least: float) -> tuple[float, float]:
     return beside, beside * float(np.exp(found.x)) / step
 
 
-def _many(log_ratio: float) -> int:
-    """Rows that may be put together beside a walk of a ratio, a power of two."""
+def many_rows(log_ratio: float) -> int:
+    """Rows that may be put together in one mean beside a walk whose variance in a step has a ratio
+    to the white one of this logarithm, a power of two.
+    """
     return 1 << max(0, int(np.log2(THIN) - 0.5 * log_ratio / np.log(2.0)))
 
 
@@ -121,7 +123,7 @@ class _Seen:
         """By the logarithm of their ratio what walks gain [nat] over none."""
         gains: dict[float, float] = {}
         for x in np.arange(first, HIGHEST, APART):
-            means = self.in_means(_many(x))
+            means = self.in_means(many_rows(x))
             gains[x] = means.none[0] - means.lost(np.exp(x) / step)[0]
             best = max(gains, key=lambda x: gains[x])
             if gains[x] < gains[best] - FALLEN and x > best + 2 * APART:

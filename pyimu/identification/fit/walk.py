@@ -16,7 +16,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import logsumexp
 
-from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.columns import Linear, Stack
 from pyimu.identification.fit.errors_in_variables import (
     column_changes,
     equations,
@@ -25,6 +25,7 @@ from pyimu.identification.fit.errors_in_variables import (
 )
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Key
+from pyimu.identification.fit.local_level import FEWEST, many_rows
 from pyimu.identification.fit.mixture import standard_error
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.normal import (
@@ -41,6 +42,11 @@ FACTOR = 2.0
 
 LEAST_WEIGHT = 1e-3
 """Of a walk, in units of the likeliest's, below which those beyond it are not tried."""
+
+BEYOND = 256.0
+"""K^2 in units of the fitted one beside which rows are put together, where that is as many times
+the least: it grows as large as the error of a mean in a sixteenth of the log then, which shows it
+so often that larger ones weigh nothing."""
 
 
 def with_unknown_walk(fit: Fit) -> Fit:
@@ -74,6 +80,9 @@ def _declared(fit: Fit, axis: int) -> float:
 class _Axis:
     """The equations of all axes with those of one taken anew for each walk that is tried: its
     ``linears``, less what the noise of the reference ``changed`` in them.
+
+    Where the walk is well known they are taken of means over rows: what rows say within a mean is
+    the same beside each walk.
     """
 
     def __init__(
@@ -86,21 +95,30 @@ class _Axis:
         declared: float,
     ) -> None:
         self.axis, self.noise = axis, noise
-        self.linears, self.changed = linears, changed
+        # A walk that stays within the error of a mean is as good as none.
+        rows = sum(len(one.time) for one in linears)
+        lasts = [float(one.time[-1] - one.time[0]) for one in linears]
+        self.least = max(declared, noise.r / rows / max(lasts))
+        self.many = 1
+        if noise.k2 > BEYOND * self.least:
+            ratio = BEYOND * noise.k2 * sum(lasts) / rows / noise.r
+            most = min(len(one.time) for one in linears) // FEWEST
+            self.many = max(1, min(many_rows(float(np.log(ratio))), most))
+        self.linears, self.changed = (
+            [_in_means(one, axis, self.many) for one in side] for side in (linears, changed)
+        )
         gram, score, _, self.keys = self._equations(noise)
         self.at = [whole.position[k] for k in self.keys]
         self.gram, self.score = np.array(whole.gram), np.array(whole.score)
         self.gram[np.ix_(self.at, self.at)] -= gram
         self.score[self.at] -= score
-        # A walk that stays within the error of a mean is as good as none.
-        rows = sum(len(one.time) for one in linears)
-        lasts = max(float(one.time[-1] - one.time[0]) for one in linears)
-        self.least = max(declared, noise.r / rows / lasts)
 
     def _equations(self, noise: RandomWalk) -> tuple[np.ndarray, np.ndarray, float, list[Key]]:
         """Gram matrix and score of the axis' columns beside a noise, the log-likelihood [nat] of
-        the residual, and the columns' keys.
+        the residual, and the columns' keys, less what no walk changes.
         """
+        # Means are as large as makes their white variance that of a row.
+        noise = replace(noise, k2=self.many * noise.k2)
         own = normal_equations(self.linears, {self.axis: noise})
         gram, score = np.array(own.gram), np.array(own.score)
         if self.changed:
@@ -143,6 +161,25 @@ class _Axis:
             for n, key in enumerate(self.keys)
             if np.all(np.isfinite(stds[:, n])) and stds[0, n] > 0.0
         }
+
+
+def _in_means(one: Linear, axis: int, many: int) -> Linear:
+    """The rows of an axis in means of so ``many``, times the root of it; what is left at the end is
+    left out.
+    """
+    if many == 1:
+        return one
+    count = len(one.time) // many
+
+    def means(values: np.ndarray) -> np.ndarray:
+        return values[: count * many].reshape(count, many).mean(axis=1)
+
+    root, residual = np.sqrt(many), np.zeros((count, 3))
+    residual[:, axis] = root * means(one.residual[:, axis])
+    columns = tuple(root * means(c) for c in one.columns[axis].arrays) if axis in one.keys else ()
+    stacks = {i: Stack(count, columns) for i in one.keys}
+    whole = [(0, count)]
+    return replace(one, time=means(one.time), segments=whole, residual=residual, columns=stacks)
 
 
 def _weight(k2: float, tried: Mapping[float, tuple]) -> float:
