@@ -33,8 +33,9 @@ A second table has the smoothed attitude of the recordings of BROAD, of which ea
 estimated by all others, beside vqf's ``offlineVQF``, with what the smoother claims of its error.
 The smoother has no constant of its own.
 
-The constants of the motion (``pyimu.attitude.filter.velocity``) and the noise that grows with the
-rate of a gyro of which no part says anything were chosen on 02, 11 and 26 as well.
+The constants of the motion (``pyimu.attitude.filter.velocity``) were chosen on 02, 11 and 26 as
+well, the noise that grows with the rate of a gyro of which no part says anything on 02, 07, 09 and
+26.
 """
 
 import os

@@ -133,17 +133,18 @@ def _bias(
 
     ``earth`` (3,) is what is known of the Earth's rate in world axes, ``unknown`` (3,) the standard
     deviation of the rest. A body that turns steadily about the vertical, no faster than a bias may
-    be, measures the same as one at rest and is taken for that; of one that ``sways`` the bias is
-    unsure by such a turn. Where no gravity confirms that the body stays ``levelled``, the standard
-    deviation is at least half the mean rate: a turn is two standard deviations away.
+    be, measures the same as one at rest and is taken for that, unless the log shows the turn
+    (``even``); of one that ``sways`` the bias is unsure by such a turn. Where no gravity confirms
+    that the body stays ``levelled``, the standard deviation is at least half the mean rate: a turn
+    is two standard deviations away.
     """
     axes = attitude.inv().as_matrix()
     bias = rate - axes @ earth
     variance = mean_bias_std(part, rest) ** 2 + axes**2 @ unknown**2
     if rest.declared or levelled:
-        turn = rest.sways * TURN_STD * axes[:, 2]
+        up, unsure = axes[:, 2], np.hypot(rest.sways * TURN_STD, rest.even.std)
         # The zero-rate updates find the same bias in the same rows.
-        return bias, np.hypot(REUSED * np.sqrt(variance), turn)
+        return bias - rest.even.turn * up, np.hypot(REUSED * np.sqrt(variance), unsure * up)
     return bias, np.sqrt(variance + (bias / 2) ** 2)
 
 

@@ -30,11 +30,16 @@ NOMINAL_MOTION_BIAS = 2.5e-3
 what its model lacks. Chosen on recordings 02, 11 and 26 of BROAD (``benchmarks/attitude_real.py``);
 from 2e-3 to 3e-3 it makes little difference."""
 
-NOMINAL_RATE_NOISE = 1.6e-3
-"""sqrt(s); the setting ``rate_noise`` for such a gyro: scale factors and axes off by a percent, for
-turns of the order of 0.03 s. ``NOMINAL_K`` has the part that lasts. It is the least with which the
-inclination is no more than 1.3 times off what is claimed, squared, on recordings 02, 11 and 26 of
-BROAD; their errors fall with it."""
+NOMINAL_RATE_NOISE = 0.8e-3
+"""sqrt(s); the setting ``rate_noise`` for such a gyro: axes off by a percent, and its timing, for
+turns of the order of 0.03 s. What its scale factors make of the attitude ``NOMINAL_SCALE_STD``
+has. The inclination of recordings 02, 07, 09 and 26 of BROAD is best from 0.6e-3 to 0.8e-3, and no
+more off than is claimed."""
+
+PART_RATE_NOISE = 1.6e-3
+"""sqrt(s); the same beside the part of a real sensor, whose scale factors count as calibrated: it
+is the least with which the inclination is no more than 1.3 times off what is claimed, squared, on
+recordings 02, 11 and 26 of BROAD."""
 
 NOMINAL_SCALE_STD = 0.02
 """1; standard deviation of the scale factor of such a gyro's axis, the setting ``scale_std``. The
@@ -185,14 +190,14 @@ def rate_noise(part: Part | None) -> float:
     """sqrt(s); the setting ``rate_noise`` for a part, or for an unknown one.
 
     The part of a real sensor leaves out of the rate in motion as much as is left out without it:
-    how scale factors change with rate and temperature, axes, the sensor's timing. Chosen on
-    recordings 02, 11 and 26 of BROAD, whose parts by ``close`` have scale factors that differ by
-    0.3 % from the slow logs to the fast ones. It is not added where the part itself has such noise.
+    how scale factors change with rate and temperature, axes, the sensor's timing. The parts by
+    ``close`` of recordings 02, 11 and 26 of BROAD have scale factors that differ by 0.3 % from the
+    slow logs to the fast ones. It is not added where the part itself has such noise.
     """
     if part is None:
         return NOMINAL_RATE_NOISE
     known = any(e.law is not None and e.law.needs("x") for e in part.gyro.effects)
-    return NOMINAL_RATE_NOISE if of_a_sensor(part) and not known else 0.0
+    return PART_RATE_NOISE if of_a_sensor(part) and not known else 0.0
 
 
 def scale_std(part: Part | None) -> float:

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.attitude.contradicted import contradicted
 from pyimu.attitude.error import AttitudeError, error_against
+from pyimu.attitude.even_turns import turn_findings
 from pyimu.attitude.filter.status import STATUS
 from pyimu.attitude.filters import OWN
 from pyimu.attitude.magnetometer import Magnetometer
@@ -113,7 +114,12 @@ class Outcome:
         found = (*quality(self.recording), *self.of_part, *self.of_heading)
         if not any(f.kind == "force_in_g" for f in found):
             found += gravity_findings(self.rest)
-        found = (*found, *self.magnetometer.findings, *contradicted(self.recording))
+        found = (
+            *found,
+            *turn_findings(self.rest),
+            *self.magnetometer.findings,
+            *contradicted(self.recording),
+        )
         rows = self._referenced
         if not len(rows):
             return found

@@ -17,6 +17,7 @@ from pyimu.attitude.calibration import (
 )
 from pyimu.attitude.columns import informed, nominal_part
 from pyimu.attitude.contradicted import believed
+from pyimu.attitude.even_turns import with_later_rests
 from pyimu.attitude.magnetometer import Magnetometer, magnetometer_of
 from pyimu.attitude.rest import Rest, find_rest
 from pyimu.errors import Finding, UserError
@@ -66,6 +67,7 @@ class Prepared:
         declared = None if part is None else part_of(part)
         calibration = calibration_of(magnetometer)
         recording, between = bridged(recording, rest, declared)
+        rest = with_later_rests(rest, recording)
         recording = believed(recording)
         if calibration is None and declared is not None and bool(magnetometer):
             calibration = None if recording.mag is None else of_sensor(declared.mag)

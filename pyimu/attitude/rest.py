@@ -65,6 +65,21 @@ which a fifth stays has this, and twice the density at 0 Hz that its steps show;
 three axes chance makes 0.03 of it."""
 
 
+@dataclass(frozen=True)
+class EvenTurn:
+    """By which ``turn`` rad/s about the vertical a body turned that seemed to rest at the start,
+    and the standard deviation in rad/s of that.
+    """
+
+    turn: float = 0.0
+    std: float = 0.0
+
+    @property
+    def in_doubt(self) -> bool:
+        """Whether nothing tells which of several levels is that of the bias."""
+        return self.std > 0 and self.turn == 0
+
+
 @dataclass(frozen=True, repr=False)
 class Rest(Brief):
     """The rows of a rest, its ``duration`` in s, and statistics of its samples.
@@ -78,6 +93,7 @@ class Rest(Brief):
     ``force_density`` in m/s^2/sqrt(Hz) are the roots of the densities of what is white up to some
     hertz. ``gravity`` in m/s^2 is that of the place.
     ``sways`` says that the body stands on nothing solid, and may turn slowly about the vertical.
+    ``even`` is the turn that it may be, as the rest of the log shows (``even_turns``).
     ``other_force`` in m/s^2 is the size of the mean force of a start that would be a rest if that
     were gravity; None where there is no such start.
     """
@@ -95,6 +111,7 @@ class Rest(Brief):
     gravity: float
     declared: bool = False
     sways: bool = False
+    even: EvenTurn = EvenTurn()
     other_force: float | None = None
 
 

@@ -286,7 +286,7 @@ def _of_the_log(log: Prepared) -> dict[str, float]:
     if log.rest.sways:
         # Whether it still sways shows after that time; until then it would seem to rest.
         values["rest_time"] = SWAY_TIME
-    if getattr(recording, "stationary", None) is not None:
+    if getattr(recording, "stationary", None) is not None or log.rest.even.in_doubt:
         values["rest_time"] = 0.0
     if off := speed_share(recording):
         values["speed_tolerance"] = float(np.hypot(off, USUAL["speed_tolerance"]))

@@ -20,6 +20,7 @@ MEANING = {
     "damaged": "the file is damaged; what can be read of it was read",
     "dropouts": "the logger lost messages in these spans",
     "end_left_out": "lines at the end that are no whole rows, a cut one or a remark: left out",
+    "even_turn": "what looks like a rest at the start was an even turn, or may be one",
     "filled_in": "rows on a smooth curve between others that scatter: no samples, and left out",
     "force_in_g": "gravity is 1 and should be 9.8: the numbers are in g, the header says m/s^2",
     "gaps": "rows are missing; nothing is filled in or joined over them",

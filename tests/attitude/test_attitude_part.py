@@ -6,7 +6,14 @@ from attitude_cases import GRAVITY, H, drive, part, rover_rate
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run
-from pyimu.attitude.columns import NOISIER, NOMINAL_K, NOMINAL_RATE_NOISE, informed, rate_noise
+from pyimu.attitude.columns import (
+    NOISIER,
+    NOMINAL_K,
+    NOMINAL_RATE_NOISE,
+    PART_RATE_NOISE,
+    informed,
+    rate_noise,
+)
 from pyimu.attitude.error import error_against
 from pyimu.attitude.rest import find_rest
 from pyimu.model.part_file import parse_part
@@ -32,13 +39,15 @@ def log(clipped: float = np.inf) -> Recording:
     return Recording("log", time=H * np.arange(1, 3001), gyro=gyro, accel=world.force)
 
 
-def test_a_measured_part_leaves_out_as_much_of_the_rate_as_no_part():
-    """A part that says how its noise grows with the rate, and one that a program made, say all."""
+def test_a_measured_part_leaves_out_what_is_left_out_of_the_rate_without_a_part():
+    """And what the scale factors leave, which it has no standard deviation of. A part that says how
+    its noise grows with the rate, and one that a program made, say all.
+    """
     measured = parse_part(MEASURED, "part.toml")
-    assert rate_noise(measured) == rate_noise(None) == NOMINAL_RATE_NOISE
+    assert rate_noise(measured) == PART_RATE_NOISE >= rate_noise(None) == NOMINAL_RATE_NOISE
     assert rate_noise(parse_part(MEASURED + GROWING, "part.toml")) == rate_noise(part()) == 0
     parameters = run(log(), measured).parameters
-    assert parameters["rate_noise"] == NOMINAL_RATE_NOISE
+    assert parameters["rate_noise"] == PART_RATE_NOISE
     assert parameters["gyro_error.rate_random_walk.K[1]"] == NOMINAL_K
 
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{637bc7dc-d204-bfda-bdb6-7a5e1c64730b}"
-#define MODEL_TOKEN_FMI3 "{347920dd-9988-baa0-71e1-91272ff46b61}"
+#define MODEL_TOKEN_FMI2 "{e8bfab6a-1158-69c2-f71c-010b5f58f43e}"
+#define MODEL_TOKEN_FMI3 "{034fb284-c1fd-e67c-d9b5-21c55b0edc96}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -18,19 +18,19 @@ enum {
     N_PARAMETERS = 63,
     N_OUTPUTS = 21,
     N_STATES = 335,
-    N_CONSTANTS = 106,
+    N_CONSTANTS = 105,
     N_NOISE = 0,
     N_VARIABLES = 104
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2981 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 2980 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 806755 };
+enum { MODEL_MOST_SAMPLES = 802010 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -49,7 +49,7 @@ from pyimu.attitude.filter.stillness import kept as still_kept
 from pyimu.attitude.filter.timing import clock_error
 from pyimu.attitude.filter.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
 from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_K, LEAST_N, MAG
-from pyimu.attitude.filter.velocity import followed
+from pyimu.attitude.filter.velocity import followed, shown_of_scale
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal
 from pyimu.symbolic.missing import faded
@@ -75,10 +75,10 @@ of ``benchmarks/attitude_honesty.py``."""
 
 SCALE_TIME = 50.0
 """s; in which the tilt that the gyro's scale factors may have made becomes as unsure to the gains
-as it is: they know nothing of the scale factors, which turn the tilt slowly and for long where the
-joints of an arm swing to and fro, and gravity may correct that. Chosen with ten arms of seed 95
-whose sensors are ``bodies.AS_BOUGHT`` (``benchmarks/attitude_honesty.py``); with 33 s the tilt of
-trial 26 of BROAD is a hundredth of a degree worse."""
+as it is, while that shows (``velocity.shown_of_scale``): they know nothing of the scale factors,
+which turn the tilt slowly and for long where the joints of an arm swing to and fro, and gravity may
+correct that. Chosen with ten arms of seed 95 whose sensors are ``bodies.AS_BOUGHT``
+(``benchmarks/attitude_honesty.py``)."""
 
 ARGUMENTS = "estimate memory u p h"
 """Of a prediction, by their names in ``Layout``."""
@@ -290,7 +290,8 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
         )
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
     x, before = at.memory.estimate, at.memory.turning
-    turned = turned + ca.sum2(scaled_tilt(x, vertical(x)) ** 2) * (h / SCALE_TIME)
+    shown = shown_of_scale(at.memory.motion, x, settings.scalar["motion_time"], h)
+    turned = turned + ca.sum2(scaled_tilt(x, vertical(x)) ** 2) * (shown * h / SCALE_TIME)
     in_motion = turning.bias_variance(before, _turning(at, sample), settings.scalar["motion_bias"])
     return (
         least + (1 - moving) * at.stationary * still + moving * turned + rest.unseen,

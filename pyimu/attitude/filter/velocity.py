@@ -293,13 +293,37 @@ def followed(
     across, seen_across = grown(motion.across, excess)
     along, seen_along = grown(motion.along, above - own_along)
     slow = goes_on * (motion.slow + used * h / (SLOW * time + h) * (level - motion.slow))
-    white = across * time + own_across * h / 2
-    by_scale = ca.sumsqr(axes[:2, :] @ x.scaled[6:, :]) / 2
-    bounded = DRIFTS / SLOW * white * reciprocal(time) + DRIFTS * by_scale
-    left = ca.sumsqr(slow) / 2 - bounded - SLIGHT**2
+    left = _beyond_bounded(slow, across, own_across, time, h) - DRIFTS * _by_scale(x, axes)
     drift = moves * mean(motion.drift, ca.fmax(left, 0), DRIFT_WINDOW, DRIFT_RISE)
     slowly, slow_share = slow_motion.followed(
         motion.slowly, level, seen_across, drift, own_across, bounds, used, h
     )
     after = Motion(across, along, slow, drift, known, slowly, long)
     return after, Bounded(ca.vertcat(seen_across, seen_along), slow_share)
+
+
+def shown_of_scale(motion: Motion, x: Estimate, time, h):
+    """Which share of the tilt that the gyro's scale factors may have made shows, 0 to 1.
+
+    A tilt makes a slow velocity. What this has beyond that of a bounded one is compared with what
+    one standard deviation of the scale factors makes of it; ``motion`` and ``x`` are those after a
+    sample, ``time`` the correlation time.
+    """
+    axes, own = quaternion.to_matrix(x.q), x.covariance[6:, 6:]
+    up = axes[2, :].T
+    own_across = (ca.trace(own) - ca.dot(up, own @ up)) / 2
+    beyond = _beyond_bounded(motion.slow, motion.across, own_across, time, h)
+    return ca.fmin(ca.fmax(beyond, 0) * reciprocal(_by_scale(x, axes) + TINY), 1)
+
+
+def _beyond_bounded(slow, across, own_across, time, h):
+    """(m/s)^2; what the mean square of the ``slow`` velocity (2,) m/s has beyond ``DRIFTS`` times
+    that of a bounded velocity, of which ``across`` is the variance, and beyond ``SLIGHT``.
+    """
+    white = across * time + own_across * h / 2
+    return ca.sumsqr(slow) / 2 - DRIFTS / SLOW * white * reciprocal(time) - SLIGHT**2
+
+
+def _by_scale(x: Estimate, axes):
+    """(m/s)^2; the variance of a level axis of the velocity that the gyro's scale factors make."""
+    return ca.sumsqr(axes[:2, :] @ x.scaled[6:, :]) / 2

@@ -121,6 +121,8 @@ def _about_columns(a: Outcome) -> list[str]:
             "scale factor, a bias, or another unit of the accelerometer; the tilt is less sure by "
             "that"
         )
+    if "even_turn" in kinds:
+        found.append(_about_even_turn(kinds["even_turn"]))
     found += about_contradicted(a.findings)
     if "heading_late" in kinds:
         found.append(_about_late(kinds["heading_late"]))
@@ -203,6 +205,21 @@ def _about_gyro(finding: Finding) -> str:
         f"or the reference turns: numbers in {right} under a header of {stated} look so, or "
         f"converted twice; write gyro_x [{right}] in the log's header, or map it there with "
         "--columns"
+    )
+
+
+def _about_even_turn(finding: Finding) -> str:
+    """What the other rests of a log say of the first."""
+    turn, std = (np.degrees(finding.detail[name]) for name in ("turn", "std"))
+    if turn:
+        return (
+            f"the body turned evenly by {number(turn)} deg/s about the vertical where it seems to "
+            "rest at the start: the gyro's bias is that of the later rests, which are alike"
+        )
+    return (
+        "the body turns evenly about the vertical at the start or later, and no gyro tells which "
+        f"is its rest: the bias is unsure by {number(std)} deg/s and no rest is used; a column "
+        "stationary tells, or headings"
     )
 
 
