@@ -14,6 +14,7 @@ from pyimu.identification.reference.above import with_sensor_above
 from pyimu.identification.reference.align import aligned
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.clock import rebanded
+from pyimu.identification.reference.filter_left import with_filter_left
 from pyimu.identification.reference.place import (
     at_the_sensor,
     headed,
@@ -99,7 +100,7 @@ def _of_place(trial: Trial) -> Trial:
     taken as the sensor's where it may be.
     """
     if is_differentiated(trial):
-        return quietened(rebanded(with_sensor_above(headed(trial))))
+        return with_filter_left(quietened(rebanded(with_sensor_above(headed(trial)))))
     return at_the_sensor(trial)
 
 

@@ -165,6 +165,18 @@ def test_positions_as_they_were_seen_stay(sensor, seed):
     assert not kinds or accel is not None
 
 
+def test_positions_without_noise_are_behind_no_filter_that_smooths_the_sensors_noise():
+    """What it explains is the accelerometer's noise, that of the positions being less."""
+    assert not found_in(Wand(seed=84, seconds=40.0, place_noise=0.0).log())
+
+
+def test_a_filter_over_positions_without_noise_is_found():
+    smoother, size = SMOOTHERS["gaussian"]
+    wand = Wand(seed=85, seconds=40.0, place_noise=0.0)
+    (found,) = found_in(wand.log(smoother(wand.place)))
+    assert found.detail["seconds"] == pytest.approx(size, rel=0.02)
+
+
 def test_an_accelerometer_beside_smoothed_positions_is_not_blamed_and_its_own_is_found():
     """A scale factor of 1 % is its own; over the attitudes lies the same filter. Without the filter
     taken out the scale factors were 5 to 15 % off, and unexplained."""

@@ -1,5 +1,6 @@
 """Where the force of a reference acts: the point that it tracks is not the sensor's, gravity there
-is known to some thousandths, and attitude and positions may count from another heading.
+is known to some thousandths, and attitude and positions may count from another heading. And when:
+a filter that was taken out of positions is known as far as the sensor showed it.
 """
 
 from __future__ import annotations
@@ -23,24 +24,26 @@ tracks: within a vehicle, anywhere."""
 HEADED = 0.05
 """rad; standard deviation of the heading of attitudes against positions, once it is about found."""
 
-GRAVITY, HEADING, UNKNOWN = 3, 4, 5
-"""The numbers of gravity and heading among the unknowns, behind the arm's three axes, and how many
-they are."""
+GRAVITY, HEADING, STILL_LATE, STILL_SMOOTH, UNKNOWN = 3, 4, 5, 6, 7
+"""The numbers of gravity, heading, and what is left of a filter among the unknowns, behind the
+arm's three axes, and how many they are."""
 
 NOWHERE = np.zeros(UNKNOWN)
-"""The point that is tracked, the gravity that was added, the heading as it is."""
+"""The point that is tracked, the gravity that was added, the heading and the filter as they are."""
 
 
 @dataclass(frozen=True, eq=False)
 class Place:
     """What is not known of where a reference force acts: the arm (3,) m from its point to the
     sensor, and, unless ``gravity_std`` is zero, ``gravity`` to so many m/s^2 and the heading of the
-    positions' world in that of the attitudes.
+    positions' world in that of the attitudes; and, where a filter of a ``size`` in s was taken out
+    of the positions, or a delay of theirs, by how much they are still late [s], and half the
+    variance in time over which they are still smoothed [s^2].
 
-    ``forces`` (5, 3, n) is what a metre along each axis of the arm, a m/s^2 of gravity, and a
-    radian of heading add to the reference force in its own body axes, ``time`` (n,) s when;
-    ``across`` (n, 3) is the horizontal force that moves the body, less its gravity. The force has
-    nothing above ``cutoff`` Hz, and of what was differentiated nothing above ``shown_hz``.
+    ``forces`` (7, 3, n) is what a metre along each axis of the arm, a m/s^2 of gravity, a radian of
+    heading, a second, and a s^2 add to the reference force in its own body axes, ``time`` (n,) s
+    when; ``across`` (n, 3) is the horizontal force that moves the body, less its gravity. The force
+    has nothing above ``cutoff`` Hz, and of what was differentiated nothing above ``shown_hz``.
     """
 
     gravity: float
@@ -50,6 +53,7 @@ class Place:
     time: np.ndarray
     cutoff: float = np.inf
     shown_hz: float = np.inf
+    size: float = 0.0
 
     @classmethod
     def of(
@@ -77,7 +81,10 @@ class Place:
     def by(self, u: np.ndarray) -> Place:
         """The same beside other inputs (n, N_INPUT)."""
         known = self.gravity, self.gravity_std, self.shown_hz
-        return replace(Place.of(u, self.time, *known), cutoff=self.cutoff)
+        made = replace(Place.of(u, self.time, *known), cutoff=self.cutoff, size=self.size)
+        if self.size:
+            made.forces[STILL_LATE:] = self.forces[STILL_LATE:]
+        return made
 
     def part(self, start: int, stop: int) -> Place:
         rows = slice(start, stop)
@@ -111,17 +118,23 @@ class Place:
 
     @property
     def std(self) -> np.ndarray:
-        """Standard deviations (5,) of the unknowns before anything is seen."""
-        return np.array([FAR, FAR, FAR, self.gravity_std, HEADED if self.gravity_std else 0.0])
+        """Standard deviations (7,) of the unknowns before anything is seen."""
+        headed = HEADED if self.gravity_std else 0.0
+        return np.array([FAR, FAR, FAR, self.gravity_std, headed, self.size, self.size**2])
 
     @cached_property
     def unknown(self) -> tuple[int, ...]:
         """Which of them are to be found."""
         return tuple(int(k) for k in np.flatnonzero(self.std))
 
+    @property
+    def where(self) -> tuple[int, ...]:
+        """Those of them that say where the force acts, not what is left of a filter."""
+        return tuple(k for k in self.unknown if k < STILL_LATE)
+
     @cached_property
     def slopes(self) -> np.ndarray:
-        """The rates of change (5, 3, n) of the forces that are to be found, zero of others."""
+        """The rates of change (7, 3, n) of the forces that are to be found, zero of others."""
         out = np.zeros(self.forces.shape)
         for k in self.unknown:
             out[k] = np.gradient(self.forces[k], self.time, axis=1)

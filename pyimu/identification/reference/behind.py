@@ -172,7 +172,7 @@ def likeliest(
     if not judge.any_short:
         return None
     best = _finest(make, sizes, judge.left)
-    explains = judge.left(None) - judge.left(best) > 2.0 * WANDERS
+    explains = judge.gain(best) > 2.0 * WANDERS
     return best if explains and judge.alike(best) < MOSTLY * judge.alike(None) else None
 
 

@@ -107,7 +107,7 @@ def _shared(
     filters = [_filter_of(f) for f in findings if f.column == "ref_q" and f.kind in (LAG, SMOOTHED)]
     for one in filters:
         judge = judged(seen, [one] if found is None else [one, found])
-        if not judge.any_short or judge.left(None) - judge.left(one) < 2.0 * WANDERS:
+        if not judge.any_short or judge.gain(one) < 2.0 * WANDERS:
             continue
         if found is None or judge.left(one) - judge.left(found) < 2.0 * WANDERS:
             return one

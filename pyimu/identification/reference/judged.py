@@ -21,6 +21,9 @@ from pyimu.recording.reference.filters import turned_by
 SHARE = 0.5
 """Of the rows that must be left by the filters that are judged."""
 
+SURE = 3.0
+"""Standard errors by which a filter must explain more than the sensor's noise that it smooths."""
+
 TOLD = 1e-3
 """Rows by which a clock is off that is put right."""
 
@@ -49,10 +52,20 @@ class Judge:
         return bool(self.noise)
 
     def left(self, one) -> float:
-        """Power of what a filter leaves of the reference, in units of its noise; inf where the
-        filter reaches too far.
+        """Power of what a filter leaves of the reference, in units of its noise, less what the
+        sensor's own noise has of it; inf where the filter reaches too far.
         """
         return self._judged(one)[0]
+
+    def gain(self, one) -> float:
+        """By how much a filter leaves less than none does, less what the noise of the sensor may
+        make of that by chance, which a filter smooths.
+        """
+        lost = max(self._own(None) - self._own(one), 0.0) if self._reaches(one) else 0.0
+        rows = len(self.time) * len(self.noise)
+        # Of its squares, as they are and as they were drawn, and of its products with all else.
+        chance = 2.0 * lost / np.sqrt(max(rows, 1)) + 2.0 * np.sqrt(lost)
+        return self.left(None) - self.left(one) - SURE * chance
 
     def alike(self, one) -> float:
         """That part of it which looks like what filters take away: what the motion's second, fourth
@@ -83,7 +96,7 @@ class Judge:
         if not self.noise or not self._reaches(one):
             return np.inf, np.inf
         if one not in self.known:
-            columns, power, alike = self._columns(one), 0.0, 0.0
+            columns, power, alike = self._columns(one), -self._own(one), 0.0
             for i, noise in enumerate(self.noise):
                 y, x, more = self._white(noise, self.shown[:, [i]], columns[i], self._taken[i])
                 y, more = y - explained(x, y), more - explained(x, more)
@@ -92,6 +105,12 @@ class Judge:
                 alike += float(np.sum(explained(more, y) ** 2)) - more.shape[1]
             self.known[one] = power, alike
         return self.known[one]
+
+    def _own(self, one) -> float:
+        """Power of the sensor's white noise behind a filter, in units of the noise: none to speak
+        of beside that of attitudes.
+        """
+        return 0.0
 
     def _white(self, noise: Autoregressive, *columns: np.ndarray) -> list[np.ndarray]:
         """Columns beside white noise, less the rows on which samples without information weigh."""

@@ -18,6 +18,7 @@ from scipy.spatial.transform import Rotation
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.damping import slopes
 from pyimu.identification.fit.interpolated import TAPS
+from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.judged import Judge, explained
 from pyimu.identification.reference.moving import moving_rows, turned_onto
@@ -57,7 +58,7 @@ class PlacesJudge(Judge):
     """
 
     def __init__(self, trial: Trial, filters, rate: np.ndarray) -> None:
-        self.rate, self.leads = rate, {}
+        self.rate, self.leads, self.of_sensor = rate, {}, {}
         super().__init__(trial, filters)
 
     def lead(self, one) -> float:
@@ -104,6 +105,25 @@ class PlacesJudge(Judge):
             self.leads[one] += lead
             world = self._led(world, lead / self.whole.h)
         return self._by_sensor(world)
+
+    def _own(self, one) -> float:
+        """As ``Judge._own``: of positions without noise it is most of what is left."""
+        if one not in self.of_sensor:
+            drawn = np.array(self._drawn)
+            if one is not None:
+                for a, b in self.whole.segments:
+                    drawn[a:b] = one.seen(drawn[a:b], self.whole.h, None)
+            seen = in_band(self.trial, self.whole.place.shown(drawn, self.whole.segments))
+            each = zip(self.noise, seen.T[..., None], strict=True)
+            power = [np.sum(self._white(noise, column)[0] ** 2) for noise, column in each]
+            self.of_sensor[one] = float(sum(power))
+        return self.of_sensor[one]
+
+    @cached_property
+    def _drawn(self) -> np.ndarray:
+        """A draw (n, 3) of the sensor's white noise."""
+        std = np.nan_to_num(rest_noise(self.whole))
+        return std * np.random.default_rng(1).standard_normal(self.whole.y.shape)
 
     def _by_sensor(self, world: np.ndarray) -> list[np.ndarray]:
         """The columns (m, 10) of forces (n, 12) in the world's axes, each axis's."""

@@ -73,7 +73,7 @@ class _Rows:
         seen = trial if trial.band_hz is None else in_own_band(trial)
         rows = moving_rows(seen)
         given = [trial.u[:, OWN[trial.kind]], trial.y, trial.place.across]
-        given += [trial.place.forces[k].T for k in trial.place.unknown]
+        given += [trial.place.forces[k].T for k in trial.place.where]
         x, y, across, *forces = (_centred(in_band(seen, v)[rows]) for v in given)
         return cls(x, y, across, np.array(forces), seen.row_time[rows], trial.free_rotation)
 
@@ -134,7 +134,7 @@ def placed(trial: Trial) -> Trial:
         angle = _heading(rows)
         u[:, own] += place.headed(angle)
         rows, place = rows.headed(angle), place.by(u)
-    u[:, own] += np.tensordot(rows.found()[0], place.forces[list(place.unknown)], 1).T
+    u[:, own] += np.tensordot(rows.found()[0], place.forces[list(place.where)], 1).T
     return replace(trial, u=u, place=place)
 
 
@@ -186,7 +186,7 @@ def at_the_point(trial: Trial) -> np.ndarray:
         return trial.y
     found, turn = rows.found()
     away = np.zeros(len(place.forces))
-    away[list(place.unknown)] = found
+    away[list(place.where)] = found
     return trial.y @ turn.T - np.tensordot(away[:GRAVITY], place.forces[:GRAVITY], 1).T
 
 
@@ -237,8 +237,8 @@ def is_borne_out(trial: Trial) -> bool:
     if trial.clock is not None and trial.clock.explained < COHERENCE:
         return False
     place, turn = rows.found()
-    place[trial.place.unknown.index(HEADING)] = 0.0  # of the force that is judged
-    upward = trial.place.unknown.index(GRAVITY)
+    place[trial.place.where.index(HEADING)] = 0.0  # of the force that is judged
+    upward = trial.place.where.index(GRAVITY)
     standing = trial.place.gravity * rows.forces[upward] + np.tensordot(place, rows.forces, 1)
     moving = (rows.x - trial.place.gravity * rows.forces[upward]) @ turn
     left, power = rows.y - standing @ turn, float(np.sum(moving**2))
