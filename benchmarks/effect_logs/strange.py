@@ -1,5 +1,5 @@
-"""Errors that no effect describes and that no formula of signals at one instant does either, or only
-one of three of them: what has a memory, a phase that drifts, or follows the slope of a signal.
+"""Errors that no effect describes, and, but for one or two, no formula of signals at one instant:
+what has a memory, a phase that drifts, or follows the slope of a signal.
 """
 
 from __future__ import annotations
