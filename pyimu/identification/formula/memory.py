@@ -32,6 +32,9 @@ TIMES = (3.0, 10.0, 30.0, 100.0)
 """s; how long it takes to fade to 1/e. A column whose time is off by the root of ten still explains
 two thirds of one that a motion of turns and rests fed."""
 
+FINER = (0.56, 0.75, 1.0, 1.33, 1.78)
+"""Times the best of these that are tried between them."""
+
 WALKS = 9
 """Sizes of the walk that are tried beside a memory."""
 
@@ -72,20 +75,30 @@ def remembered(fit: Fit) -> Remembered | None:
     if scores is None or scores.p_value >= UNEXPLAINED:
         return None
     best = scores.terms[0]
-    linears = fit.beside(fit.linearise(), [columns_of(fit.sensor.kind, [best.term])])
+    assert isinstance(best.term, Memory)
+    about = [_memory(best.term.signal, best.term.component, best.term.tau * f) for f in FINER]
+    fits = {m: _beside(fit, m, best.axes) for m in about}
+    memory = max(fits, key=lambda m: sum(fits[m].values()))
     known, cost = fit.as_declared().noise, PENALTY * len(best.axes) + float(np.log(len(memories)))
-    beside = {i: _walking(fit, linears, i, i in best.axes) for i in fit.noise}
+    linears, beside = fit.linearise(), fits[memory]
     gain = sum(beside[i] - _likelihood(linears, i, known[i], False) for i in best.axes)
     said = tuple(
-        Unexplained(fit.sensor.kind, AXES[i], best.term.inputs, scores.p_value, best.term.text)
+        Unexplained(fit.sensor.kind, AXES[i], memory.inputs, scores.p_value, memory.text)
         for i in best.axes
     )
     return Remembered(gain - cost, sum(beside.values()) - cost, said)
 
 
+def _beside(fit: Fit, memory: Memory, axes: tuple[int, ...]) -> dict[int, float]:
+    """The likelihood [nat] of each axis of a fit with a memory on some of them."""
+    linears = fit.beside(fit.linearise(), [columns_of(fit.sensor.kind, [memory])])
+    return {i: _walking(fit, linears, i, i in axes) for i in fit.noise}
+
+
 def less_than_memory(inv: Investigation) -> Investigation:
     """An investigation less its slow effects, where a memory of the motion explains more than they
-    do together: each of them is slow as that is, and none is what it is.
+    do together: each of them is slow as that is, and none is what it is. Where they leave one that
+    is seen beside them, it need only explain as much.
     """
     steps = [s for s in inv.steps if not s.declared]
     if not steps or not all(is_slow(CATALOGUE[s.effect]) for s in steps):
@@ -96,12 +109,16 @@ def less_than_memory(inv: Investigation) -> Investigation:
     linears = inv.after.linearise()
     named = sum(_walking(inv.after, linears, i, False) for i in inv.after.noise)
     ahead = memory.likelihood - (named - PENALTY * inv.brought_in)
-    if ahead <= SET_WIDTH:
+    if ahead <= (SET_WIDTH if remembered(inv.after) is None else -SET_WIDTH):
         return inv
     for s in steps:
         if s.effect in {left.effect for left in inv.steps}:
-            inv = without(inv, s.effect, f"explains {ahead:.0f} nat less than {memory.said}")
+            inv = without(inv, s.effect, f"{memory.said} explains {_said(ahead)}")
     return inv
+
+
+def _said(ahead: float) -> str:
+    return f"{ahead:.0f} nat more" if ahead > SET_WIDTH else "as much"
 
 
 def _walking(fit: Fit, linears: list[Linear], axis: int, remembers: bool) -> float:
@@ -152,7 +169,7 @@ def _memory(signal: str, component: int | None, tau: float) -> Memory:
     what = f"size of the {of}" if component is None else f"{of} {AXES[component]}"
     inputs = (signal,) if component is None else (f"{signal}_{AXES[component]}",)
     more = {"signal": signal, "component": component, "tau": tau}
-    text = f"a memory of the {what} that fades within {tau:g} s"
+    text = f"a memory of the {what} that fades within {tau:.2g} s"
     return Memory(text, ("",), ("",), ("",), frozenset({signal}), 1, inputs, **more)
 
 
