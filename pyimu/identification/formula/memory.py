@@ -15,7 +15,7 @@ from scipy.signal import lfilter
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient, Key, Shape
-from pyimu.identification.fit.normal import Noise, solve
+from pyimu.identification.fit.normal import solve
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.formula.screen import UNEXPLAINED, scored
@@ -130,7 +130,7 @@ def _walking(fit: Fit, linears: list[Linear], axis: int, remembers: bool) -> flo
     return max(_likelihood(linears, axis, noise, remembers) for noise in noises)
 
 
-def _likelihood(linears: list[Linear], axis: int, noise: Noise, remembers: bool) -> float:
+def _likelihood(linears: list[Linear], axis: int, noise: RandomWalk, remembers: bool) -> float:
     """Log-likelihood [nat, constant left out] of one axis of a residual less all that the columns
     of the model explain, and those of the memory, where it ``remembers``.
     """
