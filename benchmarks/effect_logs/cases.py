@@ -1,9 +1,9 @@
 """The cases of the benchmark: one log, or two, with what its sensor has and its part lacks.
 
 A case depends on its name, its number and the range of durations alone. It is called
-``clean/rover``, ``one/8/gyro.g_sensitivity``, ``together/8/...``, ``pair/12/gyro``, ``size1/...``
-or ``unknown/30/...``. A clean log holds gyro and accelerometer, one with an effect the sensor that
-has it: what the other is blamed for is counted by the clean ones.
+``clean/rover``, ``one/8/gyro.g_sensitivity``, ``together/8/...``, ``pair/12/gyro``, ``size1/...``,
+``unknown/30/...`` or ``strange/30/...``. A clean log holds gyro and accelerometer, one with an
+effect the sensor that has it: what the other is blamed for is counted by the clean ones.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from generators.instrument import Sensor, any_sensor
 from generators.motion import rover, shaker, static, table, thermal_cycle, tumble
 
-from effect_logs import nameless
+from effect_logs import nameless, strange
 from effect_logs.chain import NAMED, TERMS, Chain, NotShown, at_typical, size_of_all, tuned
 from effect_logs.scene import HZ, Scene, new_scene
 from effect_logs.term import Case, Term
@@ -88,10 +88,12 @@ def names(row: str) -> list[str]:
         "pair_12": ["pair/12/gyro", "pair/12/accel"],
         "size1": _of_effects("size1", False),
         "unknown_30": [f"unknown/30/{k}.{t.name}" for t in nameless.TERMS for k in t.sizes],
+        "strange_30": [f"strange/30/{k}.{t.name}" for t in strange.TERMS for k in t.sizes],
     }[row]
 
 
-ROWS = ("clean", *(f"one_{s}" for s in SIZES), "together_8", "pair_12", "size1", "unknown_30")
+SINGLE = tuple(f"one_{s}" for s in SIZES)
+ROWS = ("clean", *SINGLE, "together_8", "pair_12", "size1", "unknown_30", "strange_30")
 
 
 def _of_effects(before: str, by_size: bool) -> list[str]:

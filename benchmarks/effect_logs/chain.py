@@ -10,12 +10,18 @@ import numpy as np
 from generators.instrument import Triad
 from scipy.optimize import brentq
 
-from effect_logs import bias_terms, gain_terms, motion_terms, nameless, noise_terms
+from effect_logs import bias_terms, gain_terms, motion_terms, nameless, noise_terms, strange
 from effect_logs.scene import Scene
 from effect_logs.term import Case, Term
 from effect_logs.whitening import grams
 
-INPUT = (*motion_terms.TERMS, *gain_terms.TERMS, *bias_terms.TERMS, *nameless.TERMS)
+INPUT = (
+    *motion_terms.TERMS,
+    *gain_terms.TERMS,
+    *bias_terms.TERMS,
+    *nameless.TERMS,
+    *strange.TERMS,
+)
 NOISE, OUTPUT = noise_terms.TERMS, noise_terms.OUTPUT
 
 TERMS: Mapping[str, Term] = {t.name: t for t in (*INPUT, *NOISE, *OUTPUT)}

@@ -62,7 +62,7 @@ def switched_by_turn(x, case: Case):
 def switched_by_speed(x, case: Case):
     """Switching: a bias that is there only while the body turns fast."""
     size = np.linalg.norm(case.scene.rate, axis=1)
-    return x + (size > np.quantile(size, 0.7))[:, None] * case.c
+    return x + (size > case.form["beyond"])[:, None] * case.c
 
 
 def _round(rng, scene):
@@ -80,6 +80,22 @@ def _dwell(rng, scene):
 def _beyond(rng, scene):
     return {"beyond": float(rng.uniform(0.02, 0.1))}
 
+
+def _fast(rng, scene):
+    """The speed that three rows of ten are above, or as many more as it takes to lie beside those
+    at which the body is kept: there the last digits of a rate would switch, which no log shows.
+    """
+    size = np.sort(np.linalg.norm(scene.rate, axis=1))
+
+    def is_kept(speed: float) -> bool:
+        low, high = np.searchsorted(size, [speed * (1 - NEAR), speed * (1 + NEAR)])
+        return high - low > KEPT * len(size)
+
+    return {"beyond": float(min(np.quantile(size, np.arange(0.7, 0.1, -0.01)), key=is_kept))}
+
+
+NEAR, KEPT = 1e-3, 0.02
+"""Relative width about a speed, and share of the rows in it, from which on a body is kept at it."""
 
 SIZES = {"gyro": 1.7e-3, "accel": 5e-2}
 """About the size of a consumer part's g-sensitivity, of an accelerometer 5 mg."""
@@ -101,7 +117,7 @@ BILINEAR = (
     _term(warm_force, ("gyro",), motions=SHAKEN),
     _term(rate_times_supply, needs=("supply",)),
 )
-SWITCHING = (_term(switched_by_turn, form=_beyond), _term(switched_by_speed))
+SWITCHING = (_term(switched_by_turn, form=_beyond), _term(switched_by_speed, form=_fast))
 RANDOM = (_term(popcorn, form=_dwell),)
 
 TERMS = (*PERIODIC, *BILINEAR, *SWITCHING, *RANDOM)

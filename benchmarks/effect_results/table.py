@@ -79,7 +79,10 @@ def rows(records: Iterable[Record]) -> list[Row]:
     formulas = [r for r in strange if r["truths"][0]["term"] in FORMULAS]
     out.append(_share("unknown, 30 sigmas: named with confidence", strange, _named, 0.02, True))
     out.append(_share("unknown, 30 sigmas: said, or a formula", strange, _right, 0.95))
-    return [*out, _share("unknown, 30 sigmas: given a formula", formulas, _formula, 0.9)]
+    out.append(_share("unknown, 30 sigmas: given a formula", formulas, _formula, 0.9))
+    memory = by_row["strange/30"]
+    out.append(_share("no formula's, 30 sigmas: named with confidence", memory, _named, 0.02, True))
+    return [*out, _share("no formula's, 30 sigmas: said, or a formula", memory, _right, 0.95)]
 
 
 def _share(text, records, counts: Callable[[Record], bool], wanted, at_most=False) -> Row:

@@ -21,6 +21,7 @@ from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.structure import prior_of
 from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
+from pyimu.identification.formula.memory import less_than_memory, remembered
 from pyimu.identification.formula.search import Look, look
 from pyimu.identification.instead import (
     formula_less_than_noise,
@@ -247,7 +248,12 @@ def _looked(
     say(f"{inv.after.sensor.kind}: is what was found noise")
     inv = less_than_rounding(less_than_noise(inv, random))
     found = look(inv, partial(_again, inv, prior), say)
-    return Look(inv) if formula_less_than_noise(inv, found, random) else found
+    if formula_less_than_noise(inv, found, random):
+        found = Look(inv)
+    if found.formula is not None or inv.after.is_reduced:
+        return found
+    left = less_than_memory(found.investigation)
+    return replace(found, investigation=left, memory=remembered(left.after))
 
 
 def _random(start: Part, kind: str) -> frozenset[str]:

@@ -23,6 +23,7 @@ from pyimu.identification.fates import Fate, fates
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.formula.formula import Formula
+from pyimu.identification.formula.memory import Remembered
 from pyimu.identification.formula.search import Look
 from pyimu.identification.found import Added, Changed, LogEntry
 from pyimu.identification.heading_error import heading_rms
@@ -40,6 +41,7 @@ from pyimu.identification.references import references
 from pyimu.identification.result import Closed
 from pyimu.identification.rounding import is_coarse
 from pyimu.identification.search.belief import most
+from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.forward import Investigation, Refused
 from pyimu.identification.search.inexact import left_by_forms
 from pyimu.identification.search.leftover import Unexplained
@@ -58,6 +60,7 @@ from pyimu.recording.reference.force import has_places
 from pyimu.report.numbers import joined
 
 MORE_THAN_NOISE = "kinds of noise are told apart only where nothing else is left"
+REMEMBERED = "what is left follows the motion, with a memory of it"
 AS_FORM = "what noise was found is no more than the form of an effect may leave"
 
 
@@ -164,9 +167,22 @@ def _noises(
 ) -> dict[str, Noise]:
     """What is random in what each sensor leaves, told apart where the references fit."""
     return {
-        kind: _noise(start, inv, model, len(found), fits and _is_noise(inv, looks[kind]))
+        kind: _unless_remembered(
+            _noise(start, inv, model, len(found), fits and _is_noise(inv, looks[kind])),
+            looks[kind].memory,
+        )
         for kind, inv in found.items()
     }
+
+
+def _unless_remembered(noise: Noise, memory: Remembered | None) -> Noise:
+    """What is random in a residual, or what this remembers of the motion where that explains more:
+    slow noise follows whatever is slow, by less.
+    """
+    slow = sum(a.gain for a in noise.added) + sum(noise.drift.values())
+    if memory is None or noise.shapes or memory.gain <= slow + SET_WIDTH:
+        return noise
+    return Noise(shapes=memory.unexplained, unasked=REMEMBERED)
 
 
 def _unexplained(looks: Mapping[str, Look], noises: Mapping[str, Noise]) -> tuple[Unexplained, ...]:

@@ -352,3 +352,15 @@ def test_the_true_model_leaves_the_noise():
         extra = made.truths[0].value if made is random else np.zeros(3)
         wanted = (declared**2 + extra**2) / H
         np.testing.assert_allclose(np.mean(white**2, axis=0), wanted, rtol=6 * np.sqrt(3 / 6000))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_nothing_switches_at_a_speed_at_which_a_table_is_kept(seed):
+    """There the last digits of a rate would: of ten rates of a table two are the same for a fifth
+    of its rows.
+    """
+    rng = np.random.default_rng(seed)
+    scene = new_scene(rng, cases.MOTIONS["table"], 300.0)
+    level, size = nameless._fast(rng, scene)["beyond"], np.linalg.norm(scene.rate, axis=1)
+    near = np.abs(size / level - 1.0) < nameless.NEAR
+    assert np.mean(near) <= nameless.KEPT and 0.2 < np.mean(size > level) < 0.9

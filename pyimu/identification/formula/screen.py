@@ -6,7 +6,7 @@ as those of any effect.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -75,14 +75,14 @@ class Scores:
         return min((s.p_value for s in self.terms), default=1.0) * self.trials
 
 
-def scored(fit: Fit, terms: Sequence[Term]) -> Scores:
-    """The terms with what each would explain beside a model."""
+def scored(fit: Fit, terms: Sequence[Term], columns: Callable = columns_of) -> Scores:
+    """The terms with what each would explain beside a model; ``columns`` makes theirs."""
     out: list[Scored] = []
     pair = beside_moved(fit)
     for few in _chunks(terms):
 
         def linearised(f: Fit, few=few) -> list[Linear]:
-            return f.beside(f.linearise(), [columns_of(f.sensor.kind, few)])
+            return f.beside(f.linearise(), [columns(f.sensor.kind, few)])
 
         normal = with_prior(equations(fit, linearised, pair), fit)
         place = {k: i for i, k in enumerate(normal.keys) if isinstance(k, Shape)}

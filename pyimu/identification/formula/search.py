@@ -39,6 +39,7 @@ from pyimu.identification.formula.judge import (
     left_of,
     outweighs,
 )
+from pyimu.identification.formula.memory import Remembered
 from pyimu.identification.formula.resembles import resembled
 from pyimu.identification.formula.screen import UNEXPLAINED, Scores, gate, scored
 from pyimu.identification.formula.terms import (
@@ -79,11 +80,14 @@ Done = dict[frozenset[tuple[str, tuple[int, ...]]], tuple[Found | None, Chosen]]
 
 @dataclass(frozen=True)
 class Look:
-    """What was made of what an investigation left."""
+    """What was made of what an investigation left; ``memory`` is what this remembers of the motion,
+    where no formula was found.
+    """
 
     investigation: Investigation
     formula: Formula | None = None
     unexplained: Unexplained | None = None
+    memory: Remembered | None = None
 
 
 def look(

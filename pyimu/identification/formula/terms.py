@@ -66,6 +66,8 @@ MOVES = 2.0**0.5
 HARMONICS = 4
 """Highest harmonic of an angle that is tried."""
 
+SLOPES = ("angular_acceleration", "jerk")
+
 NAMED = frozenset({"angular_acceleration", "temperature_rate", "time"})
 """Signals of which a multiple alone is an effect of the catalogue. So is one of the rate of the
 sensor's own signal: a delay, or a clock."""
@@ -260,6 +262,7 @@ def library(kind: str, trials: tuple[Trial, ...]) -> list[Term]:
     for name, three in each.items():
         terms += [_product(p) for p in combinations_with_replacement(three, 2)]
         terms += [_product((a, b)) for a in warm for b in three]
+        terms += [_product((a, *p)) for a in warm for p in combinations_with_replacement(three, 2)]
         others = [f for n, fs in each.items() if n > name for f in fs]
         terms += [_product((a, b)) for a in three for b in others]
         terms += [_absolute(f) for f in three]
@@ -327,16 +330,17 @@ def _harmonics(moving: Mapping[str, tuple[int, ...]]) -> list[Term]:
 
 
 def _switches(trials, moving, own: str) -> list[Term]:
-    """A step at each of some levels of each number that moves, and of the size of a vector."""
+    """A step at each of some levels of each number that moves, of its slope (not at zero, where it
+    would follow the noise of a reference at rest), and of the size of a vector.
+    """
     out = []
-    for name in ("rate", "specific_force"):
-        if name not in moving:
-            continue
+    for name in (n for n in ("rate", "specific_force", *SLOPES) if n in moving):
         values = np.concatenate([t.u[a:b, COLUMNS[name]] for t in trials for a, b in t.segments])
+        shares = SHARES[::2] if name in SLOPES else SHARES
         for i in moving[name]:
             f = _single(name, i, own)
-            out += [switch(f, level) for level in Levels.of(values[:, i]).at(SHARES)]
-        if len(moving[name]) > 1:
+            out += [switch(f, level) for level in Levels.of(values[:, i]).at(shares)]
+        if len(moving[name]) > 1 and name not in SLOPES:
             f = _size_of(name, own)
             sizes = np.linalg.norm(values, axis=1)
             out += [switch(f, level) for level in Levels.of(sizes).at(SHARES)]
