@@ -3,9 +3,9 @@
 Such a turn looks like a rest of a gyro with another bias, and no sample of it tells the two apart.
 The rest of the log may: each span in which nothing moves has a level of the rate along the
 vertical. A table that stops between two turns comes back to the same level, that of its gyro's
-bias, while it hardly ever turns twice at the same rate. Which of two levels the rest is that come
-back equally often, no gyro tells: by even odds the bias is off by the root of half of the square of
-their difference.
+bias, while it hardly ever turns twice at the same rate. Most logs begin at rest, and one does whose
+first level comes back as often as any other. Where two others come back more often, no gyro tells
+which of them is the rest: the bias is off by the root of the mean square of both.
 """
 
 from __future__ import annotations
@@ -29,6 +29,10 @@ EDGE = 0.5
 ALIKE, SIGMAS = 5e-4, 3.0
 """rad/s; levels of the same bias differ by less than a flicker of 100 deg/h and, beside it, three
 standard deviations of the means' noise and of what the bias walks."""
+
+LEAST_TURN = 2e-3
+"""rad/s; a slower turn is not told from a bias: a consumer's gyro that warms by 5 K goes by
+0.1 deg/s, and it may be the vertical one alone."""
 
 LOOKED_AT = 600.0
 """s; of a log in which other rests are looked for: in more the bias of a gyro is another."""
@@ -96,12 +100,12 @@ def even_turn(recording: Recording, up: np.ndarray, noise: float) -> EvenTurn:
     off = np.array([v.rate - levels[0].rate for v in levels])
     spread = np.array([_spread(v, levels[0], noise) for v in levels])
     along, across = off @ up, np.linalg.norm(np.cross(off, up), axis=1)
-    along = np.where(np.abs(along) > AXIAL * across, along, 0.0)
+    along = np.where(np.abs(along) > np.maximum(AXIAL * across, LEAST_TURN), along, 0.0)
     kinds = _kinds(along, spread)
     sizes = np.array([len(k) for k in kinds])
     own = next(i for i, k in enumerate(kinds) if 0 in k)
     others = np.delete(sizes, own)
-    if not len(others) or sizes[own] > others.max():
+    if not len(others) or sizes[own] >= others.max():
         return EvenTurn()
     best = np.flatnonzero(sizes == sizes.max())
     if len(best) == 1:

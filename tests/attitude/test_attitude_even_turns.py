@@ -33,8 +33,11 @@ def of_log(recording: Recording) -> EvenTurn:
     return with_later_rests(find_rest(recording), recording).even
 
 
-@pytest.mark.parametrize("rates", [(0.0,), (0.0, TURN, 0.0), (0.0, TURN, 0.0, -TURN, 0.0, TURN)])
-def test_a_rest_that_comes_back_is_one(rates):
+@pytest.mark.parametrize(
+    "rates",
+    [(0.0,), (0.0, TURN, 0.0), (0.0, TURN, 0.0, -TURN, 0.0, TURN), (0.0, TURN), (0.0, TURN) * 2],
+)
+def test_a_rest_that_comes_back_as_often_as_any_turn_is_one(rates):
     assert of_log(turned(*rates)) == EvenTurn()
 
 
@@ -44,12 +47,17 @@ def test_a_turn_between_rests_that_are_alike_is_none_of_the_bias():
     assert even.turn == pytest.approx(TURN, abs=2e-4) and even.std == ALIKE
 
 
-@pytest.mark.parametrize("rates", [(TURN, 0.0), (0.0, TURN), (0.0, TURN, 0.0, TURN)])
-def test_of_two_levels_that_come_equally_often_either_may_be_the_rest(rates):
+@pytest.mark.parametrize("drift", [3e-4, 1.5e-3])
+def test_a_bias_that_warms_is_no_turn(drift):
+    assert of_log(turned(0.0, drift, drift)) == EvenTurn()
+
+
+def test_of_two_levels_that_come_equally_often_either_may_be_the_rest():
     """By even odds: no gyro tells, and the attitude claims as much of its heading."""
-    log = turned(*rates)
+    log = turned(TURN, 0.0, -TURN / 2, 0.0, -TURN / 2, seconds=6.0)
     even = of_log(log)
-    assert even.in_doubt and even.std == pytest.approx(TURN / np.sqrt(2), rel=0.02)
+    away = np.sqrt((TURN**2 + (1.5 * TURN) ** 2) / 2)
+    assert even.in_doubt and even.std == pytest.approx(away, rel=0.02)
     found = run(log)
     assert found.heading_std[-1] > 0.9 * even.std * log.time[-1]
     assert found.tilt_std[-1] < 0.02
