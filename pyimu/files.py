@@ -9,6 +9,7 @@ import errno
 import json
 import math
 import os
+import re
 import shutil
 import stat
 import tempfile
@@ -76,6 +77,10 @@ def text_in(path: Path) -> str:
         raise UserError(f"{path}: cannot be read ({error.strerror or error})") from None
 
 
+DECIMAL_COMMA = re.compile(r"^[^#\"\[]*= *([-+]?\d+),(\d+) *(?:,|\}|#|$)", re.M)
+"""A number with a comma, outside of a list, in a line of TOML."""
+
+
 def parse_toml(text: str, file: str) -> dict[str, Any]:
     """What a TOML ``text`` holds; ``file`` is what errors call it. Raises UserError."""
     try:
@@ -84,6 +89,10 @@ def parse_toml(text: str, file: str) -> dict[str, Any]:
         reason = "nested too deeply"
     except ValueError as error:  # of the grammar, and of numbers with thousands of digits
         reason = str(error)
+    if comma := DECIMAL_COMMA.search(text):
+        reason += (
+            f"; numbers have a decimal point: {comma[1]}.{comma[2]}, not {comma[1]},{comma[2]}"
+        )
     raise UserError(f"{file}: cannot be read as TOML: {reason}")
 
 

@@ -4,13 +4,16 @@ A general unit parser reads ``g`` as gram and knows no ``deg/sqrt(h)``; here ``g
 gravity, and a spelling that is not in the table is an error that names the nearest one that is::
 
     product = power (("*" | "/") power)*         left to right: deg/h/sqrt(h) = deg/(h sqrt(h))
-    power   = factor ["^" integer]
+    power   = factor ["^" (integer | half)]          half: 0.5, 1/2, (-3/2)
     factor  = atom [integer] | "sqrt" "(" product ")" | "(" product ")"
 
 What data sheets and the package's own reports print is read as well: degree and micro signs, roots
-with their sign or as rtHz, raised powers, and the names in ``ALIASES``, so that ``°/s``,
-``mdps/√Hz``, ``µg/rtHz``, ``m/s2`` and ``ppm/°C`` are units, and ``LSB/°/s`` is LSB/(°/s). A
-trailing ``rms``, as in ``mg rms``, says how a figure was measured and is no part of its unit.
+with their sign or as rtHz, raised powers, any sign of minus and fraction, and the names in
+``ALIASES``, so that ``°/s``, ``mdps/√Hz``, ``µg/rtHz``, ``m/s2`` and ``ppm/°C`` are units, and
+``LSB/°/s`` is LSB/(°/s). A blank or a point between two names multiplies where no sign of division
+stands (``m s⁻²``, ``rad.s-1``); behind one it could mean either, and is an error. A trailing
+``rms``, as in ``mg rms``, says how a figure was measured and is no part of its unit; so does
+``(1σ)``.
 
 The radian and the count of a converter (LSB) are kept as dimensions of their own, so that a column
 in 1/s is not taken for a rate, nor one in counts for a pure number.
@@ -65,6 +68,7 @@ _ATOMS: dict[str, tuple[float, dict[str, int]]] = {
     "deg": (_DEG, {"rad": 1}),
     "mdeg": (1e-3 * _DEG, {"rad": 1}),
     "rev": (2 * math.pi, {"rad": 1}),
+    "arcmin": (_DEG / 60, {"rad": 1}),
     "arcsec": (_DEG / 3600, {"rad": 1}),
     "s": (1.0, {"s": 1}),
     "ms": (1e-3, {"s": 1}),
@@ -96,6 +100,7 @@ _ATOMS: dict[str, tuple[float, dict[str, int]]] = {
     "nT": (1e-9, {"T": 1}),
     "gauss": (1e-4, {"T": 1}),
     "mgauss": (1e-7, {"T": 1}),
+    "ugauss": (1e-10, {"T": 1}),
     "LSB": (1.0, {"LSB": 1}),
 }
 
@@ -104,7 +109,9 @@ ATOMS = tuple(_ATOMS)
 
 ALIASES = {
     "dps": "deg/s",
+    "DPS": "deg/s",
     "mdps": "mdeg/s",
+    "Deg": "deg",
     "rpm": "rev/min",
     "RPM": "rev/min",
     "kph": "km/h",
@@ -115,16 +122,42 @@ ALIASES = {
     "degrees": "deg",
     "radian": "rad",
     "radians": "rad",
+    "arcsecond": "arcsec",
+    "arcseconds": "arcsec",
+    "arc-sec": "arcsec",
+    "arcminute": "arcmin",
+    "arcminutes": "arcmin",
+    "arc-min": "arcmin",
     "sec": "s",
+    "Sec": "s",
+    "msec": "ms",
+    "usec": "us",
+    "nsec": "ns",
+    "minute": "min",
+    "minutes": "min",
     "second": "s",
     "seconds": "s",
     "hr": "h",
+    "Hr": "h",
+    "hrs": "h",
+    "sps": "Hz",
+    "SPS": "Hz",
+    "milli-g": "mg",
+    "micro-g": "ug",
+    "g0": "g",
+    "g₀": "g",
+    "gₙ": "g",
+    "volt": "V",
+    "volts": "V",
     "hour": "h",
     "hours": "h",
     "Gauss": "gauss",
     "mGauss": "mgauss",
+    "milligauss": "mgauss",
+    "uGauss": "ugauss",
     "lsb": "LSB",
     "LSb": "LSB",
+    "LSBs": "LSB",
     "count": "LSB",
     "counts": "LSB",
     "digit": "LSB",
@@ -133,6 +166,11 @@ ALIASES = {
 """Names that data sheets use, in those of the table; each is one factor: LSB/dps = LSB/(deg/s)."""
 
 _SIGNS = {
+    "° C": "degC",
+    "º C": "degC",
+    "deg C": "degC",
+    "deg. C": "degC",
+    "°K": "K",
     "°C": "degC",
     "ºC": "degC",
     "℃": "degC",
@@ -145,27 +183,65 @@ _SIGNS = {
     "μ": "u",
     "·": "*",
     "⋅": "*",
+    "×": "*",
+    "**": "^",
+    "∕": "/",
+    "⁄": "/",
+    "−": "-",
+    "–": "-",
+    "％": "%",
+    "^½": "^0.5",
+    "½": "^0.5",
+    "arc sec": "arcsec",
+    "arc min": "arcmin",
+    "″": "arcsec",
 }
 """Signs in print, and what they stand for; the longer ones go first."""
 
-_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
+_UNSEEN = re.compile("[\u0305\u200b-\u200f\u2060\ufeff]")
+"""What print sets without a width of its own: the line over what stands under a root, and joints of
+words.
+"""
+
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᐟ", "0123456789-+/")
+
+_RAISED_ONES = re.compile(f"[{''.join(map(chr, _RAISED))}]+")
+
+_HALF = re.compile(r"\^ ?\( ?([-+]?\d{1,2}(?:\.[05]|/2)?) ?\)|\^ ?([-+]?\d?[13579]/2)(?!\d)")
+"""A power in brackets, and one that is half a whole number without them."""
+
+_BARE_POWER = re.compile(r"(?<=[*. ])([A-Za-z]{1,3})(-\d)(?![\d.])")
+"""A power that print has raised and a copy of it has not: m s-2."""
+
+_BESIDE = re.compile(r"(?<=[\w)%])(?<!sqrt)(?: +|\.)(?=[A-Za-z(])")
+"""What stands between two names that are multiplied."""
 
 _ROOT = re.compile(r"(?:√ ?|\b(?:rt|sqrt|root)[ -]?)([A-Za-z]+)|(?:√|\brt)(?= ?\()")
 """The root of one name, √Hz or rtHz, or of what stands in brackets."""
 
-_MEASURED = re.compile(r"(?<=\S)[ -](?:rms|RMS|\(rms\)|\(RMS\))$")
+_MEASURED = re.compile(
+    r"(?:(?<=\S)(?:[ -]|, ?)\(?(?:rms|RMS|1 ?σ|1[- ]sigma)\)?|(?<=g)rms"
+    r"|(?<=\S)\((?:rms|RMS|1 ?σ)\))$"
+)
 """How data sheets say behind a unit that the figure is a root mean square."""
+
+_SHARE_OF_RANGE = re.compile(r"(?:%|ppm) ?(?:of )?(?:F\.?S|full[- ]scale|FSR|FSO|range)", re.I)
+
+_PEAKS = re.compile(r"[ -]\(?(?:p-p|pp|pk-pk|peak[- ]to[- ]peak)\)?$", re.I)
 
 _HINTS = {
     "mG": "mgauss (field) or mg (gravity)",
     "G": "gauss (field) or g (gravity)",
+    "Gs": "gauss (field) or g (gravity)",
+    "mGs": "mgauss (field) or mg (gravity)",
+    "bit": "LSB",
+    "bits": "LSB",
     "meter": "m",
     "metre": "m",
     "C": "degC",
     "celsius": "degC",
     "fahrenheit": "degF",
     "kelvin": "K",
-    "volt": "V",
     "rps": "rev/s or rad/s",
 }
 """What common spellings outside the table are called in it; only for error messages."""
@@ -176,7 +252,7 @@ _PER_RATE = re.compile(
 """A sensitivity as data sheets print it, LSB/°/s, which is one to a rate: LSB/(°/s)."""
 
 _TOKEN = re.compile(
-    r"\s*(?:(?P<operator>[*/^()])|(?P<integer>[-+]?\d+)|(?P<word>[^\s*/^()\d+-][^\s*/^()]*))"
+    r"\s*(?:(?P<operator>[*/^()])|(?P<number>[-+]?\d+(?:\.5)?)|(?P<word>[^\s*/^()\d+-][^\s*/^()]*))"
 )
 
 
@@ -201,7 +277,7 @@ class Unit:
     @property
     def plain(self) -> str:
         """The spelling without signs that only print has: ``degC`` for ``°C``."""
-        return _plain(self.text)
+        return plain(self.text)
 
 
 _Value = tuple[float, tuple[Fraction, ...]]
@@ -304,13 +380,24 @@ def or_known(name: str, names: Iterable[str]) -> str:
     return did_you_mean(name, listed) or f"; known are {', '.join(listed)}"
 
 
-def _plain(text: str) -> str:
+def plain(text: str) -> str:
     """``text`` in the letters of the table: ``udeg`` for ``µ°``, ``sqrt(h)`` for ``√h``."""
+    text = re.sub(r"\s", " ", _UNSEEN.sub("", text))
+    text = _RAISED_ONES.sub(lambda m: f"^{m[0].translate(_RAISED)}", text)
     for sign, letters in _SIGNS.items():
         text = text.replace(sign, letters)
-    text = re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺]+", lambda m: f"^{m[0].translate(_RAISED)}", text)
+    text = _HALF.sub(_half, text)
     text = _ROOT.sub(lambda m: f"sqrt({m[1]})" if m[1] else "sqrt", text).strip()
-    return _MEASURED.sub("", text)
+    text = _MEASURED.sub("", text)
+    if "/" in text:
+        return text
+    return _BESIDE.sub("*", _BARE_POWER.sub(r"\1^\2", text))
+
+
+def _half(match: re.Match[str]) -> str:
+    """The power that ``_HALF`` found, as a decimal number."""
+    power = match[1] or match[2]
+    return f"^{float(Fraction(power)):g}"
 
 
 def _unit(unit: str | Unit, like: Unit | str | None = None) -> Unit:
@@ -337,7 +424,7 @@ class _Reader:
         self.position = 0
 
     def _tokens(self) -> list[str]:
-        tokens, start, text = [], 0, _PER_RATE.sub(r"\1(\2)", _plain(self.text))
+        tokens, start, text = [], 0, _PER_RATE.sub(r"\1(\2)", plain(self.text))
         while start < len(text):
             match = _TOKEN.match(text, start)
             if not match:
@@ -363,7 +450,17 @@ class _Reader:
 
     def end(self) -> None:
         if self.peek():
-            raise self.error(f"unexpected '{self.peek()}'")
+            raise self.error(self._said_otherwise() or f"unexpected '{self.peek()}'")
+
+    def _said_otherwise(self) -> str | None:
+        """What a unit of data sheets that is none says, None of any other."""
+        if _SHARE_OF_RANGE.search(self.text):
+            return "a share of the range has the range's unit: 0.1 % of 2000 dps is 2 dps"
+        if _PEAKS.search(self.text):
+            return "a figure from peak to peak is no rms; write the rms, or the density"
+        if "/" in self.text and self.peek()[:1].isalpha():
+            return f"unexpected '{self.peek()}'; behind a '/' write '*' or '/' before it"
+        return None
 
     def product(self) -> _Value:
         factor, dimension = self.power()
@@ -380,12 +477,13 @@ class _Reader:
             return factor, dimension
         self.take()
         text = self.take()
-        if not re.fullmatch(r"[-+]?\d{1,2}", text):
-            raise self.error(f"a power must be an integer below 100, not '{text}'")
-        power = int(text)
+        if not re.fullmatch(r"[-+]?\d{1,2}(?:\.5)?", text):
+            raise self.error(f"a power must be an integer below 100, or half of one, not '{text}'")
+        power = Fraction(text)
         if factor != 0 and abs(power * math.log10(abs(factor))) > LARGEST_EXPONENT:
             raise self.error(f"the power {power} is beyond all sizes")
-        return factor**power, tuple(e * power for e in dimension)
+        exponent = int(power) if power.denominator == 1 else float(power)
+        return factor**exponent, tuple(e * power for e in dimension)
 
     def factor(self) -> _Value:
         token = self.take()
@@ -418,6 +516,8 @@ class _Reader:
     def _unknown(self, token: str) -> str:
         if not token or token in "*/^()":
             return "a unit is missing" + (f" before '{token}'" if token else " at its end")
+        if said := self._said_otherwise():
+            return said
         meant = _HINTS.get(token) or _HINTS.get(token.casefold()) or self._nearest(token)
         return f"unknown '{token}'" + (
             f", did you mean {meant}?" if meant else f"; known are {', '.join(ATOMS)}"

@@ -90,7 +90,7 @@ def is_density(unit: Any) -> bool:
 
     A random walk in deg/sqrt(h) is two-sided by definition.
     """
-    return isinstance(unit, str) and "Hz" in unit
+    return isinstance(unit, str) and "Hz" in units.plain(unit)
 
 
 def nested(texts: list[str], shape: tuple[int, ...]) -> str:

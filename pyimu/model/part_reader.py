@@ -361,10 +361,17 @@ class _Reader:
             return np.concatenate([self._flat(where, i) for i in items]) if items else np.empty(0)
         for item in items:
             if isinstance(item, bool) or not isinstance(item, (int, float)):
-                raise self.error(where, f"must be a number, not {shortened(repr(item))}")
+                raise self.error(where, f"must be a number{_as_number(item)}")
             if not abs(item) <= sys.float_info.max:
                 raise self.error(where, "must be finite")
         return np.array(items, dtype=float)
+
+
+def _as_number(item: Any) -> str:
+    """What ``item`` is in place of a number, and how it is written as one."""
+    said = f", not {shortened(repr(item))}"
+    text = item.strip().replace("−", "-").replace(",", ".") if isinstance(item, str) else ""
+    return f"{said}: write {text}" if re.fullmatch(r"[-+]?\d+(?:\.\d+)?", text) else said
 
 
 def _is_cross_axis(q: Parameter, entry: Mapping[str, Any]) -> bool:

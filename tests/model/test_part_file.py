@@ -205,6 +205,10 @@ ERRORS = dict(
             "gyro.scale_factor.s.unit: must be text, not 3",
         ),
         (
+            '[gyro.bias_instability]\nB = {value = "0,3", unit = "°/h"}',
+            "gyro.bias_instability.B: must be a number, not '0,3': write 0.3",
+        ),
+        (
             '[gyro.scale_factor]\ns = {value = 1, sourc = "x"}',
             "gyro.scale_factor.s.sourc: unknown key; did you mean source?",
         ),
@@ -413,6 +417,12 @@ CROSS = [[0, 2, 1], [0.5, 0, 1], [1, 1, 0]]
 """% of axis j seen by axis i."""
 
 
+@pytest.mark.parametrize("entry", ['B = {value = -0,3, unit = "°/h"}', "B.value = -0,3"])
+def test_a_decimal_comma_is_told(entry):
+    with pytest.raises(UserError, match="numbers have a decimal point: -0.3, not -0,3"):
+        read(f"[gyro.bias_instability]\n{entry}")
+
+
 def test_a_density_says_whether_it_is_one_sided():
     """Read in silence as two-sided, a data sheet's figure would be 1.41 times too large."""
     walk = '[gyro.rate_random_walk]\nK = {{value = 5, unit = "rad/s^2/√Hz"{}}}'
@@ -421,7 +431,10 @@ def test_a_density_says_whether_it_is_one_sided():
     two = read(walk.format(', density = "two-sided"'))
     np.testing.assert_array_equal(two.gyro.values["rate_random_walk"]["K"], 5.0)
     entry = '[gyro.angle_random_walk]\nN = {{value = 5, unit = "{}"{}}}'
-    for unit in ("mdps/√Hz", "deg/s/sqrt(Hz)", "mdps/rtHz"):
+    for unit in (
+        *("mdps/√Hz", "deg/s/sqrt(Hz)", "mdps/rtHz", "mdps/√H\u0305z\u0305"),
+        *("mdps/Hz½", "° s⁻¹ Hz^-0.5", "mdps·Hz⁻¹ᐟ²", "mdps/√Hz (1σ)"),
+    ):
         with pytest.raises(UserError, match='add density = "one-sided".*or density = "two-sided"'):
             read(entry.format(unit, ""))
     read(entry.format("deg/√hr", ""))
