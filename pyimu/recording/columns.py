@@ -140,12 +140,20 @@ def own_name(cell: str) -> str | None:
     return name.strip() if bracket and name.strip() in UNITS else None
 
 
+BY_QUANTITY = {
+    "T": {"G": "gauss", "Gs": "gauss", "mG": "mgauss", "mGs": "mgauss", "uG": "ugauss"},
+    "m/s^2": {"G": "g", "Gs": "g", "mG": "mg", "mGs": "mg", "uG": "ug"},
+}
+"""Spellings that are another unit in a column of another quantity, by the quantity's SI unit."""
+
+
 def check_unit(place: str, name: str, text: Any) -> units.Unit:
     """The unit ``text`` of the column ``name``.
 
     Raises UnitError that begins with ``place`` where it is none, or does not fit.
     """
     right = UNITS[name]
+    text = BY_QUANTITY.get(right, {}).get(text.strip(), text) if isinstance(text, str) else text
     try:
         unit = units.parse(text, right)
     except units.UnitError as error:

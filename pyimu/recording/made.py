@@ -7,10 +7,11 @@ from __future__ import annotations
 from pyimu.recording.apple import with_whole_force
 from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.formats.matrix_attitude import with_attitude
+from pyimu.recording.formats.one_unit import with_one_unit
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.split_time import with_one_time
 
 
 def with_made_columns(reader: Reader, foreign: ForeignMap) -> tuple[Reader, ForeignMap]:
     """``reader`` with the columns that are made of others, and the map with the time among them."""
-    return with_one_time(with_attitude(with_whole_force(reader)), foreign)
+    return with_one_time(with_attitude(with_whole_force(with_one_unit(reader))), foreign)

@@ -6,9 +6,8 @@ import math
 from collections.abc import Callable
 from itertools import islice
 
-import numpy as np
-
 from pyimu.errors import UserError
+from pyimu.recording.bodies import BODIES
 from pyimu.recording.column_map import BODY, ForeignMap
 from pyimu.recording.columns import XYZ
 from pyimu.recording.counts import Scale
@@ -16,6 +15,8 @@ from pyimu.recording.formats.layout import FAR
 from pyimu.recording.formats.lines import lines
 from pyimu.recording.formats.marked import GNSS_LOGGER
 from pyimu.recording.formats.reader import Reader
+from pyimu.recording.hyper_imu import hyper_imu
+from pyimu.recording.novatel import novatel
 from pyimu.recording.vectors import triad_map
 from pyimu.units import parse
 
@@ -174,24 +175,15 @@ def px4_table(reader: Reader) -> ForeignMap | None:
 
 def ardupilot_table(reader: Reader) -> ForeignMap | None:
     """A table of ArduPilot's ``IMU``, as pymavlink's mavlogdump writes it (its log messages): us,
-    rad/s, m/s^2, forward-right-down; none where it has the samples of several units, ``I``.
+    rad/s, m/s^2, forward-right-down.
     """
     rate, force = ([f"{n}{a}" for a in "XYZ"] for n in ("Gyr", "Acc"))
-    if not {"TimeUS", *rate, *force} <= set(reader.header) or _several(reader, "I"):
+    if not {"TimeUS", *rate, *force} <= set(reader.header):
         return None
     columns = {"TimeUS": "time [us]"} | triad_map(rate, "gyro", "rad/s")
     columns |= triad_map(force, "accel", "m/s^2")
     columns |= {"T": "temperature [degC]"} if "T" in reader.header else {}
     return ForeignMap(columns=columns, body=BODY["frd"])
-
-
-def _several(reader: Reader, cell: str) -> bool:
-    """Whether a column has several numbers in the first rows."""
-    at = reader.header.index(cell) if cell in reader.header else -1
-    if at not in reader.numeric():
-        return False
-    columns, _ = next(reader.batches([at], at), ([np.zeros(0)], 1.0))
-    return len(np.unique(columns[0])) > 1
 
 
 def mavlink_table(reader: Reader) -> ForeignMap | None:
@@ -241,6 +233,9 @@ PROGRAMS: tuple[tuple[str, Callable[[Reader], ForeignMap | None]], ...] = (
     ("nuScenes' CAN bus, by its description", nuscenes),
     ("VectorNav's binary output, by its manuals", vectornav_table),
     ("PX4's sensor_combined, by its definition", px4_table),
+    ("NovAtel's raw samples, by its manual", novatel),
+    ("HyperIMU, by its documentation", hyper_imu),
+    *BODIES,
     ("ArduPilot's IMU, by its definition", ardupilot_table),
     ("MAVLink's message of an inertial unit, by its definition", mavlink_table),
 )

@@ -69,7 +69,7 @@ def unit_of(text: str) -> str | None:
     text = text.strip().translate(_POWERS)
     if not text or len(text) > 40 or text in ("count", "counts"):  # names of counters end so
         return None
-    tried = [text, _spelled(text)]
+    tried = [_spelled(text), text] if " " in text else [text, _spelled(text)]
     for spelling in tried:
         if spelling:
             try:

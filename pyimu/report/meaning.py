@@ -63,6 +63,7 @@ MEANING = {
     "nominal_time": "no column of times: the rate that was given counts rows",
     "not_integrated": "a method that this log does not allow",
     "not_shown_at_rest": "the positions at rest do not show these coefficients; what would is told",
+    "other_units": "samples of other units in the same table: those of the first were read",
     "other_file": "columns of a second file, brought to the times of the first",
     "outliers": "single samples that no motion makes: they were left out",
     "position_fixes": "positions that contradict gyro and accelerometer were weighed down",

@@ -110,8 +110,40 @@ def test_scaled_messages_of_mavlink_are_in_thousandths(log, tmp_path):
     np.testing.assert_allclose(found.temperature, 41.5)
 
 
-def test_several_units_in_one_table_of_ardupilot_are_no_log_of_one(log, tmp_path):
-    assert not inspect(ardupilot(tmp_path, log, several=True)).readable
+def test_of_several_units_in_one_table_the_first_is_read(log, tmp_path):
+    path = ardupilot(tmp_path, log, several=True)
+    found = read_recording(path)
+    agrees(found, [column[::2] for column in log])
+    (said,) = [f for f in found.findings if f.kind == "other_units"]
+    assert (said.count, said.detail) == (len(log[0]) // 2, {"unit": 0, "column": "I"})
+    text = path.read_text().splitlines()
+    text[5] = ",".join(["1.7e9", "", *text[5].split(",")[2:]])  # the third sample of unit 0
+    path.write_text("\n".join(text))
+    with pytest.raises(UserError, match="row 6: the time is missing"):
+        read_recording(path)
+
+
+def test_mavlink_numbers_its_units_too(log, tmp_path):
+    rows = mavlink(tmp_path, log).read_text().splitlines()
+    both = [f"{row},{unit}" for row in rows[1:] for unit in (2, 3)]
+    path = tmp_path / "several.csv"
+    path.write_text("\n".join([f"{rows[0]},id", *both]))
+    agrees(read_recording(path), log)
+
+
+@pytest.mark.parametrize("unit, size", [("mG", 1e-3), ("G", 1.0)])
+def test_a_capital_g_is_gauss_of_a_field_and_g_of_a_force(unit, size, tmp_path):
+    """In a recording's own header, where the column says which of the two it is."""
+    names = [f"{group}_{a} [{unit}]" for group in ("accel", "mag") for a in "xyz"]
+    path = tmp_path / "own.csv"
+    rows = [f"{k * 0.01},0,0,{1 / size},{0.2 / size},0,{-0.4 / size}" for k in range(50)]
+    path.write_text("\n".join([",".join(["time [s]", *names]), *rows]))
+    found = read_recording(path)
+    np.testing.assert_allclose(found.accel, [[0, 0, STANDARD_GRAVITY]] * 50, rtol=1e-12)
+    np.testing.assert_allclose(found.mag, [[2e-5, 0, -4e-5]] * 50, rtol=1e-12)
+    path.write_text(path.read_text().replace("time [s]", f"time [{unit}]"))
+    with pytest.raises(UserError, match="column time: .* is not a unit"):
+        read_recording(path)
 
 
 # Units
@@ -285,9 +317,9 @@ def test_a_log_of_a_serial_monitor_is_text(log, tmp_path):
 
 
 def test_a_name_without_a_suffix_that_is_known_says_what_helps(tmp_path):
-    (tmp_path / "walk.sensors").write_text("2 4000\n")
+    (tmp_path / "walk.readings").write_text("2 4000\n")
     with pytest.raises(UserError, match=r"rename text to \.txt"):
-        read_recording(tmp_path / "walk.sensors")
+        read_recording(tmp_path / "walk.readings")
 
 
 # What to do next

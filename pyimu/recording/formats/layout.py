@@ -16,15 +16,18 @@ from pathlib import Path
 
 from pyimu.errors import UserError
 from pyimu.recording.columns import UNITS
+from pyimu.recording.formats.bodies import total_capture
 from pyimu.recording.formats.clock_times import is_clock_time
 from pyimu.recording.formats.lines import UTF_8, code_of, is_comment, lines
 from pyimu.recording.formats.marked import (
     GNSS_LOGGER,
+    SHARE,
     Marked,
     gnss_logger,
     labelled,
     vectornav,
 )
+from pyimu.recording.formats.novatel import novatel
 from pyimu.recording.formats.optical import optical
 from pyimu.recording.formats.unnamed import names_of
 from pyimu.recording.spelling import bare, unit_of
@@ -70,6 +73,9 @@ _RATE = re.compile(
     re.I,
 )
 """Also as the first line of ActiGraph's tables says it."""
+
+_PERIOD = re.compile(r"\bsampling (?:rate|time|period|interval) *[:=] *([\d.]+) *ms\b", re.I)
+"""The time between samples, which HyperIMU calls their rate."""
 
 
 @dataclass(frozen=True)
@@ -143,9 +149,13 @@ def layout_of(path: Path, topic: str = "") -> Layout:
             names=marked.names,
             first=next(told, 1),
             clocks=marked.clocks,
+            rate=marked.rate,
             code=code_of(path),
             marked=marked,
         )
+    ended = _ended(head)
+    if ended is not None:
+        return replace(ended, code=code_of(path))
     table = optical(head)
     if table is not None:
         found = Layout(table.separator, ".", table.names, table.first, rate=table.rate)
@@ -164,9 +174,12 @@ def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
     Raises UserError for a ``topic`` that is not there.
     """
     if topic:
-        found = gnss_logger(head, topic)
+        found = gnss_logger(head, topic) or total_capture(head, topic)
         if found is not None:
             return found
+        bodies = total_capture(head)
+        if bodies is not None:
+            raise UserError(f"{path}: has no topic {topic}; read are {bodies.said}")
         there = [word for word in GNSS_LOGGER if gnss_logger(head, word)]
         if there:
             raise UserError(f"{path}: has no topic {topic}; there are {', '.join(there)}")
@@ -175,7 +188,24 @@ def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
     if there is not None:
         return gnss_logger(head, there)
     rows = [line for line in head if line.strip() and not is_comment(line)]
-    return vectornav(rows) or labelled(rows, path)
+    return novatel(head) or vectornav(rows) or total_capture(rows) or labelled(rows, path)
+
+
+_ENDS = " ;\r\n"
+
+
+def _ended(head: Sequence[str]) -> Layout | None:
+    """The layout of a table between commas with a semicolon behind each row, None of any other."""
+    rows = [line for line in head if line.strip() and not is_comment(line)]
+    tail = rows[len(rows) // 2 :]
+    ends = [line.rstrip().endswith(";") and line.count(";") == 1 for line in tail]
+    if not tail or sum(ends) < SHARE * len(tail):
+        return None
+    found = told_from([line.rstrip(_ENDS) + "\n" for line in head])
+    if found.separator != "," or len(found.names) < 3:
+        return None
+    said = "a semicolon behind each row"
+    return replace(found, marked=Marked(found.names, lambda line: line.rstrip(_ENDS), said))
 
 
 def _is_told(marked: Marked, line: str) -> bool:
@@ -209,7 +239,7 @@ def told_from(head: Sequence[str]) -> Layout:
     whole = [c for _, c in cells[start:] if len(c) == width]
     names = _names(named, width, _empty(whole, width)) or names_of(whole, form.separator)
     notes = [line for k, line in numbered if is_comment(line) or k < first]
-    rate = next((_hertz(m) for line in notes[:HEAD] if (m := _RATE.search(line))), None)
+    rate = next((hertz for line in notes[:HEAD] if (hertz := _stated_rate(line))), None)
     return Layout(
         form.separator,
         form.decimal,
@@ -385,9 +415,14 @@ def _rightwards(row: Sequence[str]) -> list[str]:
     return filled
 
 
-def _hertz(match: re.Match[str]) -> float | None:
+def _stated_rate(line: str) -> float | None:
+    """Hz; the sample rate that a line says, as such or as the time between samples."""
+    match, period = _RATE.search(line), _PERIOD.search(line)
     try:
-        value = float(match[1]) * (1000 if match[2] else 1)
-    except ValueError:
+        if match:
+            value = float(match[1]) * (1000 if match[2] else 1)
+        else:
+            value = 1000 / float(period[1]) if period else 0.0
+    except (ValueError, ZeroDivisionError):
         return None
     return value if value > 0 else None

@@ -149,7 +149,7 @@ class Body:
 
     Lines of comment are left out, and those that are not ``whole``, where that is asked. Where
     ``blanks`` separate the columns, a run of them becomes one; ``rewrite`` makes a row of a line,
-    or none.
+    or none, also of what looks like a comment where those are not ``comments``.
     Lines longer than ``LONGEST`` are cut, for the reader behind to complain.
     """
 
@@ -161,9 +161,10 @@ class Body:
         blanks: bool,
         whole: Callable[[bytes], bool] | None = None,
         rewrite: Callable[[str], str | None] | None = None,
+        comments: bool = True,
     ) -> None:
         self._stream, self._blanks, self._whole = stream, blanks, whole
-        self._rewrite = rewrite
+        self._rewrite, self._comments = rewrite, comments
         self._left = None if stop is None else stop - first
         for _ in range(first - 1):
             stream.readline(LONGEST)
@@ -187,7 +188,9 @@ class Body:
         return block
 
     def _cleaned(self, block: bytes) -> bytes:
-        commented = block.startswith(_MARKS) or any(b"\n" + mark in block for mark in _MARKS)
+        commented = self._comments and (
+            block.startswith(_MARKS) or any(b"\n" + mark in block for mark in _MARKS)
+        )
         if not (commented or self._blanks or self._whole or self._rewrite):
             return block
         kept = block.split(b"\n")

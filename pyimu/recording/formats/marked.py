@@ -40,7 +40,8 @@ STAMP = "time of day"
 @dataclass(frozen=True)
 class Marked:
     """How marked lines are read: the ``names`` of the values, what makes a row of a line, what is
-    ``said`` of it, and the axes that are defined.
+    ``said`` of it, and the axes that are defined. ``commented`` says that they begin as comments
+    do; ``rate`` [Hz] is the data set's own.
     """
 
     names: tuple[str, ...]
@@ -48,6 +49,8 @@ class Marked:
     said: str
     clocks: tuple[int, ...] = ()
     body: str | None = None
+    commented: bool = False
+    rate: float | None = None
 
 
 def labelled(lines: Sequence[str], where: object) -> Marked | None:

@@ -143,7 +143,8 @@ class CsvReader(Reader):
             whole = self._is_row if self._broken else None
             marked = self.layout.marked
             rewrite = None if marked is None else marked.rewrite
-            body = Body(stream, first, stop, self.layout.separator == " ", whole, rewrite)
+            blanks, comments = self.layout.separator == " ", not self._begin_so
+            body = Body(stream, first, stop, blanks, whole, rewrite, comments)
             for block in body.blocks():
                 table = pacsv.read_csv(_held_by_arrow(block), read, parse, convert)
                 for batch in table.to_batches():
@@ -185,6 +186,11 @@ class CsvReader(Reader):
         row = next(islice(self._rows(), index, None), None)
         return f"row {index + self.layout.first if row is None else row[0]}"
 
+    @property
+    def _begin_so(self) -> bool:
+        """Whether the rows themselves begin as comments do."""
+        return self.layout.marked is not None and self.layout.marked.commented
+
     def _rows(self) -> Iterator[tuple[int, list[str]]]:
         """(row, cells) of each row of numbers that is not blank, as a spreadsheet counts them."""
         return ((row, self.layout.cells(line)) for row, line in self._lines())
@@ -193,7 +199,8 @@ class CsvReader(Reader):
         """(row, line) of each row of numbers that is not blank, as a spreadsheet counts them."""
         layout = self.layout
         for number, line in enumerate(lines(self.path), 1):
-            if number >= layout.first and line.strip() and not is_comment(line):
+            comment = is_comment(line) and not self._begin_so
+            if number >= layout.first and line.strip() and not comment:
                 line = line.rstrip("\r\n")
                 if layout.marked is not None:
                     row = layout.marked.rewrite(line)

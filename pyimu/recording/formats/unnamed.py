@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import hypot
 
+from pyimu.recording.formats.bodies import PAMAP2, WISDM, is_pamap2, is_wisdm
+
 MESSAGE = (
     *("header.stamp.sec", "header.stamp.nanosec", "header.frame_id"),
     *(f"orientation.{a}" for a in "xyzw"),
@@ -39,6 +41,10 @@ def names_of(rows: Sequence[Sequence[str]], separator: str) -> tuple[str, ...]:
         return POSE
     if rows and separator == " " and all(map(_is_pose, rows)) and _rises(rows):
         return TRAJECTORY
+    if rows and all(map(is_wisdm, rows)):
+        return WISDM
+    if rows and separator == " " and all(map(is_pamap2, rows)) and _rises(rows):
+        return PAMAP2
     return ()
 
 
