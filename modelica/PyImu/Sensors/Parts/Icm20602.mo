@@ -18,7 +18,7 @@ package Icm20602 "TDK InvenSense ICM-20602, six-axis IMU of flight controllers"
       "Input range, saturation; limit: ICM-20602 data sheet DS-000176 rev. 1.0, page 1, features (FS_SEL = 0)";
     PyImu.Effects.Quantization.Gyro quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.00013323124061025415, 0.00013323124061025415, 0.00013323124061025415})
-      "Resolution, quantization; q: 131 LSB/(deg/s), ICM-20602 data sheet DS-000176 rev. 1.0, table 1, unchecked";
+      "Resolution, quantization; q: 131 LSB/(deg/s), ICM-20602 data sheet DS-000176 rev. 1.0, table 1, second-hand (drv_icm20602.c, scale factors of ICM-20602: 1/131)";
   equation
     connect(rate, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
@@ -42,7 +42,7 @@ package Icm20602 "TDK InvenSense ICM-20602, six-axis IMU of flight controllers"
       "Input range, saturation; limit: ICM-20602 data sheet DS-000176 rev. 1.0, page 1, features (ACCEL_FS_SEL = 0)";
     PyImu.Effects.Quantization.Accel quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0005985504150390625, 0.0005985504150390625, 0.0005985504150390625})
-      "Resolution, quantization; q: 16384 LSB/g, ICM-20602 data sheet DS-000176 rev. 1.0, table 2, unchecked";
+      "Resolution, quantization; q: 16384 LSB/g, ICM-20602 data sheet DS-000176 rev. 1.0, table 2, second-hand (drv_icm20602.c, scale factors of ICM-20602: 1/16384)";
   equation
     connect(specificForce, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
@@ -74,6 +74,8 @@ package Icm20602 "TDK InvenSense ICM-20602, six-axis IMU of flight controllers"
   annotation(Documentation(info="<html>
 <p>TDK InvenSense ICM-20602, six-axis IMU of flight controllers.</p>
 <p>Sampled at 1000 Hz (ICM-20602 data sheet DS-000176 rev. 1.0, register SMPLRT_DIV, 1 kHz,
-unchecked). Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
+second-hand (Embedded Planet, icm20602.h, which names the sheet: 1 kHz behind the low-passes of 176
+Hz and less)). Coefficients are in SI units; their sources stand behind the blocks that have
+them.</p>
 </html>"));
 end Icm20602;

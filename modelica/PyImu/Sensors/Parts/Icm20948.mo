@@ -18,7 +18,7 @@ package Icm20948 "TDK InvenSense ICM-20948, consumer nine-axis IMU, gyro and acc
       "Input range, saturation; limit: ICM-20948 data sheet DS-000189 rev. 1.3, page 1 (GYRO_FS_SEL = 0)";
     PyImu.Effects.Quantization.Gyro quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.00013323124061025415, 0.00013323124061025415, 0.00013323124061025415})
-      "Resolution, quantization; q: 131 LSB/(deg/s), ICM-20948 data sheet DS-000189 rev. 1.3, table 1, unchecked (GYRO_FS_SEL = 0)";
+      "Resolution, quantization; q: 131 LSB/(deg/s), ICM-20948 data sheet DS-000189 rev. 1.3, table 1, second-hand (GYRO_FS_SEL = 0; Zephyr, drivers/sensor/tdk/icm20948/icm20948.c: 131.0)";
   equation
     connect(rate, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);

@@ -18,7 +18,7 @@ package Icm42670 "TDK InvenSense ICM-42670-P, low-power six-axis IMU"
       "Input range, saturation; limit: ICM-42670-P data sheet DS-000451, page 1, features (reset state)";
     PyImu.Effects.Quantization.Gyro quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0010642251536550791, 0.0010642251536550791, 0.0010642251536550791})
-      "Resolution, quantization; q: 16.4 LSB/(deg/s), ICM-42670-P data sheet DS-000451, table 1, unchecked";
+      "Resolution, quantization; q: 16.4 LSB/(deg/s), ICM-42670-P data sheet DS-000451, table 1, second-hand (crate icm42670, src/config.rs, which cites table 1: 16.4)";
   equation
     connect(rate, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
@@ -42,7 +42,7 @@ package Icm42670 "TDK InvenSense ICM-42670-P, low-power six-axis IMU"
       "Input range, saturation; limit: ICM-42670-P data sheet DS-000451, page 1, features (reset state)";
     PyImu.Effects.Quantization.Accel quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0047884033203125, 0.0047884033203125, 0.0047884033203125})
-      "Resolution, quantization; q: 2048 LSB/g, ICM-42670-P data sheet DS-000451, table 2, unchecked";
+      "Resolution, quantization; q: 2048 LSB/g, ICM-42670-P data sheet DS-000451, table 2, second-hand (crate icm42670, src/config.rs, which cites table 2: 2048)";
   equation
     connect(specificForce, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
@@ -74,7 +74,7 @@ package Icm42670 "TDK InvenSense ICM-42670-P, low-power six-axis IMU"
   annotation(Documentation(info="<html>
 <p>TDK InvenSense ICM-42670-P, low-power six-axis IMU.</p>
 <p>Sampled at 800 Hz (ICM-42670-P data sheet DS-000451, registers GYRO_CONFIG0 and ACCEL_CONFIG0,
-reset state 800 Hz, unchecked). Coefficients are in SI units; their sources stand behind the blocks
-that have them.</p>
+reset state 800 Hz, second-hand (crate icm42670, src/config.rs, default of both rates)).
+Coefficients are in SI units; their sources stand behind the blocks that have them.</p>
 </html>"));
 end Icm42670;

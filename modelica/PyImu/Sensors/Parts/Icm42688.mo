@@ -18,7 +18,7 @@ package Icm42688 "TDK InvenSense ICM-42688-P, high-precision consumer six-axis I
       "Input range, saturation; limit: ICM-42688-P data sheet DS-000347 rev. 1.7, page 1, features (reset state)";
     PyImu.Effects.Quantization.Gyro quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0010642251536550791, 0.0010642251536550791, 0.0010642251536550791})
-      "Resolution, quantization; q: 16.4 LSB/(deg/s), ICM-42688-P data sheet DS-000347 rev. 1.8, table 1, unchecked (GYRO_UI_FS_SEL = 0)";
+      "Resolution, quantization; q: 16.4 LSB/(deg/s), ICM-42688-P data sheet DS-000347 rev. 1.8, table 1, second-hand (GYRO_UI_FS_SEL = 0; a driver's list of the ranges of ICM-42688-P: 2000 dps, 16.4 LSB/dps)";
   equation
     connect(rate, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
@@ -42,7 +42,7 @@ package Icm42688 "TDK InvenSense ICM-42688-P, high-precision consumer six-axis I
       "Input range, saturation; limit: ICM-42688-P data sheet DS-000347 rev. 1.7, page 1, features (reset state)";
     PyImu.Effects.Quantization.Accel quantization(samplePeriod=samplePeriod, y0=y0,
       q={0.0047884033203125, 0.0047884033203125, 0.0047884033203125})
-      "Resolution, quantization; q: 2048 LSB/g, ICM-42688-P data sheet DS-000347 rev. 1.8, table 2, unchecked (ACCEL_UI_FS_SEL = 0)";
+      "Resolution, quantization; q: 2048 LSB/g, ICM-42688-P data sheet DS-000347 rev. 1.8, table 2, second-hand (ACCEL_UI_FS_SEL = 0; a driver's list of the ranges of ICM-42688-P: 16 g, 2048 LSB/g)";
   equation
     connect(specificForce, angleRandomWalk.x);
     connect(angleRandomWalkNormals.y, angleRandomWalk.w);
@@ -74,7 +74,8 @@ package Icm42688 "TDK InvenSense ICM-42688-P, high-precision consumer six-axis I
   annotation(Documentation(info="<html>
 <p>TDK InvenSense ICM-42688-P, high-precision consumer six-axis IMU.</p>
 <p>Sampled at 1000 Hz (ICM-42688-P data sheet DS-000347 rev. 1.8, registers GYRO_CONFIG0 and
-ACCEL_CONFIG0, reset state 1 kHz, unchecked). Coefficients are in SI units; their sources stand
-behind the blocks that have them.</p>
+ACCEL_CONFIG0, reset state 1 kHz, second-hand (a driver&#x27;s map of the registers of ICM-42688-P:
+reset value 0x06 of both)). Coefficients are in SI units; their sources stand behind the blocks that
+have them.</p>
 </html>"));
 end Icm42688;
