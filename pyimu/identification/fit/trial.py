@@ -418,7 +418,7 @@ def _trial(
         return None
     own, taken_off = y[:, list(axes)], None
     repeats, drawn = repeated(own), filled_rows(own, recording.segments)
-    bad = bad_samples(own, recording.segments)
+    bad = _missing_or_spikes(own, recording.segments) | (repeats | drawn)[:, None]
     if band_hz is not None:
         most = max(1, int(0.25 / (band_hz * recording.sample_period)) - 1)
         measured, y = y, np.array(y)
@@ -457,10 +457,13 @@ def bad_samples(values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.n
 
     ``segments`` are the row ranges (start, stop) without gap.
     """
-    missing = ~np.isfinite(values)
-    known = np.where(missing, np.nan, values)
     no_samples = repeated(values) | filled_rows(values, segments)
-    return missing | spikes(known, segments) | no_samples[:, None]
+    return _missing_or_spikes(values, segments) | no_samples[:, None]
+
+
+def _missing_or_spikes(values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
+    missing = ~np.isfinite(values)
+    return missing | spikes(np.where(missing, np.nan, values), segments)
 
 
 def filled_rows(values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
