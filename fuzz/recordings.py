@@ -19,6 +19,7 @@ import harness
 import log_files
 import log_folders
 import log_lines
+import log_tables
 import raw_logs
 
 from pyimu.errors import UserError
@@ -89,7 +90,7 @@ def seeds(folder: Path) -> None:
         _take(folder, kind.replace(".", "_"), lambda place, k=kind: _of_kind(place, k, log))
     _take(folder, "bag_of_ros2", lambda place: _of_kind(place, "folder", log))
     folders = (*log_folders.FILES, *log_folders.FOLDERS, *log_folders.OTHERS)
-    for make in (*raw_logs.ALONE, *folders, *log_lines.ALONE):
+    for make in (*raw_logs.ALONE, *folders, *log_lines.ALONE, *log_tables.ALONE):
         _take(folder, make.__name__, lambda place, make=make: make(place, still))
     for make in (*raw_logs.MAPPED, *log_lines.MAPPED):
         make(_mapped(folder, make.__name__), still)

@@ -5,23 +5,25 @@ import zlib
 import numpy as np
 import pytest
 import raw_logs
+from log_tables import (
+    FIELD,
+    cells,
+    crc,
+    hyper_imu,
+    pamap2,
+    put,
+    receiver,
+    total_capture,
+    wisdm,
+)
 
 from pyimu import UserError, inspect, read_recording
 from pyimu.units import STANDARD_GRAVITY
 
 TIME, GYRO, ACCEL = raw_logs.still(300)
 TIME = TIME * 1e-9
-MAG = np.array([-7.0, -65.0, 20.0])
+LOG = TIME, GYRO, ACCEL
 DEG = np.pi / 180
-
-
-def put(path, lines):
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return path
-
-
-def cells(*vectors):
-    return [f"{v:.9g}" for vector in vectors for v in np.ravel(vector)]
 
 
 def agrees(found, digits=1e-8):
@@ -34,36 +36,6 @@ def agrees(found, digits=1e-8):
 # NovAtel: counts of increments along z, -y, x, and a checksum
 
 
-def crc(text):
-    """Bit by bit, as the manual's program does."""
-    value = 0
-    for byte in text.encode():
-        value = (value ^ byte) & 0xFFFFFFFF
-        for _ in range(8):
-            value = (value >> 1) ^ (0xEDB88320 if value & 1 else 0)
-    return f"{value:08x}"
-
-
-def sample(k, accel, gyro, kind, short=True, typed=True):
-    week = f"2075,{507495.165 + TIME[k] - TIME[0]:.9f}"
-    order = [accel[2], -accel[1], accel[0], gyro[2], -gyro[1], gyro[0]]
-    counts = ",".join(str(round(c)) for c in order)
-    word = f"RAWIMU{'S' * short}{'X' * typed}A"
-    header = (
-        "2075,507495.165" if short else "COM1,0,68.5,FINESTEERING,1724,219418.0,024c0040,6125,3"
-    )
-    body = f"{word},{header};{f'00,{kind},' * typed}{week},00000000,{counts}"
-    return f"{'%' if short else '#'}{body}*{crc(body)}"
-
-
-def receiver(path, kind, rad, metres, **form):
-    """A log of a unit of that type, whose counts are ``rad`` and ``metres`` in size a sample."""
-    counts = [(a / metres, g / rad) for a, g in zip(ACCEL, GYRO, strict=True)]
-    rows = [sample(k, a, g, kind, **form) for k, (a, g) in enumerate(counts)]
-    rows[3:3] = ["#BESTPOSA,COM1,0,74.0,FINESTEERING,1687,4.2,0,6145,3153;SOL_COMPUTED*703fb123"]
-    return put(path, rows)
-
-
 @pytest.mark.parametrize(
     "kind, rad, metres, rate",
     [
@@ -74,7 +46,7 @@ def receiver(path, kind, rad, metres, **form):
     ],
 )
 def test_raw_samples_of_novatel_are_counts_of_their_units_type(kind, rad, metres, rate, tmp_path):
-    path = receiver(tmp_path / "log.ASC", kind, rate * rad, rate * metres)
+    path = receiver(tmp_path / "log.ASC", LOG, kind, rate * rad, rate * metres)
     found = read_recording(path)
     assert np.max(np.abs(found.gyro - GYRO)) < 0.51 * rate * rad
     assert np.max(np.abs(found.accel - ACCEL)) < 0.51 * rate * metres
@@ -83,7 +55,7 @@ def test_raw_samples_of_novatel_are_counts_of_their_units_type(kind, rad, metres
 
 
 def test_a_line_of_novatel_that_is_spoilt_is_no_row(tmp_path):
-    path = receiver(tmp_path / "log.txt", 11, 100 * 2.0**-33, 100 * 0.3048 * 2.0**-27)
+    path = receiver(tmp_path / "log.txt", LOG, 11, 100 * 2.0**-33, 100 * 0.3048 * 2.0**-27)
     lines = path.read_text().splitlines()
     lines[50] = lines[50].replace(",00000000,", ",00000000,1")
     found = read_recording(put(path, lines))
@@ -93,7 +65,7 @@ def test_a_line_of_novatel_that_is_spoilt_is_no_row(tmp_path):
 
 @pytest.mark.parametrize("form", [{"typed": False}, {"typed": False, "short": False}, {}])
 def test_counts_of_a_unit_that_is_not_known_have_a_size_that_the_user_says(form, tmp_path):
-    path = receiver(tmp_path / "log.txt", 64, 1e-7, 1e-6, **form)
+    path = receiver(tmp_path / "log.txt", LOG, 64, 1e-7, 1e-6, **form)
     with pytest.raises(UserError, match="in counts, and nobody said how large one is"):
         read_recording(path)
     scale = 'gyro = {value = 1e-7, unit = "rad/s"}', 'accel = {value = 1e-6, unit = "m/s^2"}'
@@ -114,12 +86,9 @@ def test_checksum_is_that_of_the_manuals_example():
 
 
 def test_wisdm_has_a_semicolon_behind_each_row(tmp_path):
-    for name, vectors in (("WISDM_ar_v1.1_raw.txt", ACCEL), ("data_1600_gyro_phone.txt", GYRO)):
-        stamps = (49105962326000 + TIME * 1e9).round().astype(int)
-        rows = zip(stamps, vectors, strict=True)
-        path = put(tmp_path / name, [f"33,Jogging,{t},{','.join(cells(v))};" for t, v in rows])
-        found = read_recording(path)
-        assert (found.gyro is None) == (vectors is ACCEL)
+    for name in ("WISDM_ar_v1.1_raw.txt", "data_1600_gyro_phone.txt"):
+        found = read_recording(wisdm(tmp_path, LOG, name))
+        assert (found.gyro is None) == ("gyro" not in name)
         agrees(found)
         np.testing.assert_allclose(np.diff(found.time), np.diff(TIME), atol=1e-8)
 
@@ -134,37 +103,19 @@ def test_a_semicolon_behind_each_row_of_a_table_with_names(tmp_path):
 
 
 def test_pamap2_is_read_by_its_54_columns(tmp_path):
-    other = np.full(17, 7.0)
-    lines = [
-        " ".join(
-            [
-                *cells(t, 0),
-                "NaN" if k % 9 else "104",
-                *cells(30.5, a, 0.9 * a, g, MAG, [1, 0, 0, 0], other, other),
-            ]
-        )
-        for k, (t, g, a) in enumerate(zip(TIME, GYRO, ACCEL, strict=True))
-    ]
-    found = read_recording(put(tmp_path / "subject101.dat", lines))
+    path = pamap2(tmp_path, LOG)
+    found = read_recording(path)
     agrees(found)
-    np.testing.assert_allclose(found.mag, np.tile(1e-6 * MAG, (len(TIME), 1)))
+    np.testing.assert_allclose(found.mag, np.tile(1e-6 * FIELD, (len(TIME), 1)))
     np.testing.assert_allclose(found.temperature, 30.5)
     left = [f.detail["columns"] for f in found.findings if f.kind == "vector_left_out"]
     assert "ankle gyro x, ankle gyro y, ankle gyro z" in left and len(left) == 4
-    assert inspect(put(tmp_path / "other.dat", [f"{line} 1" for line in lines])).readable is False
-
-
-def capture(path, sensors):
-    lines = [f"{len(sensors)}\t{len(TIME)}"]
-    for k, (g, a) in enumerate(zip(GYRO, ACCEL, strict=True), 1):
-        lines.append(str(k))
-        for factor, name in enumerate(sensors, 1):
-            lines.append("\t".join([name, *cells([1, 0, 0, 0], factor * a, g, [0.5, 0, -0.8])]))
-    return put(path, lines)
+    more = [f"{line} 1" for line in path.read_text().splitlines()]
+    assert inspect(put(tmp_path / "other.dat", more)).readable is False
 
 
 def test_total_capture_is_read_a_sensor_at_a_time(tmp_path):
-    path = capture(tmp_path / "acting1_Xsens_AuxFields.sensors", ["Head", "L_LowArm"])
+    path = total_capture(tmp_path, LOG)
     found = read_recording(path)
     agrees(found)
     np.testing.assert_allclose(np.diff(found.time), 1 / 60, atol=1e-12)
@@ -178,21 +129,11 @@ def test_total_capture_is_read_a_sensor_at_a_time(tmp_path):
 
 # HyperIMU
 
-SENSORS = ("Gyroscope", "Accelerometer", "Magnetic_Field", "Orientation", "Linear_Acceleration")
-
 
 @pytest.mark.parametrize("stamped", [True, False])
 def test_hyper_imu_is_in_the_units_of_android(stamped, tmp_path):
-    names = [f"MPL_{sensor}.{a}" for sensor in SENSORS for a in "xyz"]
-    head = ["@ HyperIMU - ianovir - 2017", "@ Date: Sat Nov 11 15:39:03 2017, Sampling Time: 50ms"]
-    stamps = (1.51e12 + TIME * 1e3).round().astype(int)
-    rows = [
-        ",".join([*[str(t)] * stamped, *cells(g, a, MAG, [129.7, -0.2, 0.0], 0 * a)])
-        for t, g, a in zip(stamps, GYRO, ACCEL, strict=True)
-    ]
-    names = ["timestamp"] * stamped + names
-    found = read_recording(put(tmp_path / "HIMU.csv", [*head, "", ",".join(names), *rows]))
+    found = read_recording(hyper_imu(tmp_path, LOG, stamped))
     agrees(found)
-    np.testing.assert_allclose(found.mag, np.tile(1e-6 * MAG, (len(TIME), 1)))
+    np.testing.assert_allclose(found.mag, np.tile(1e-6 * FIELD, (len(TIME), 1)))
     period = 0.05 if not stamped else TIME[1] - TIME[0]
     np.testing.assert_allclose(np.diff(found.time), period, atol=1e-6)

@@ -4,6 +4,7 @@ or refused without a word that helps.
 
 import numpy as np
 import pytest
+from log_tables import ardupilot, mavlink, px4, table, vectornav, whole
 
 from pyimu import inspect, read_recording
 from pyimu.errors import UserError
@@ -14,7 +15,6 @@ from pyimu.recording.guess.numbers import angle_unit
 from pyimu.recording.log import read_reference
 from pyimu.units import STANDARD_GRAVITY
 
-FRD = np.array([1.0, -1.0, -1.0])
 AXES = "XYZ"
 
 
@@ -31,17 +31,6 @@ def log():
     return time, gyro + 1e-3 * noise[0], STANDARD_GRAVITY * up + shaken + 0.02 * noise[1]
 
 
-def table(path, head, columns, separator=",", end=""):
-    cells = [c if isinstance(c, list) else [f"{v:.9g}" for v in c] for c in columns]
-    rows = [separator.join(row) + end for row in zip(*cells, strict=True)]
-    path.write_text("\n".join([*head, *rows]) + "\n", encoding="utf-8")
-    return path
-
-
-def whole(numbers):
-    return [str(round(v)) for v in numbers]
-
-
 def agrees(found, log, digits=1e-5):
     """To the rounding of the numbers in the file."""
     _, gyro, accel = log
@@ -50,47 +39,6 @@ def agrees(found, log, digits=1e-5):
 
 
 # Programs whose axes point forward, right and down
-
-
-def px4(path, log):
-    time, gyro, accel = log
-    names = [f"gyro_rad[{k}]" for k in range(3)], [f"accelerometer_m_s2[{k}]" for k in range(3)]
-    head = ["timestamp", *names[0], "gyro_integral_dt", *names[1], "accelerometer_clipping"]
-    columns = [whole(1e6 * time + 1e7), *(gyro * FRD).T, 0 * time, *(accel * FRD).T, 0 * time]
-    return table(path / "log_sensor_combined_0.csv", [",".join(head)], columns)
-
-
-def ardupilot(path, log, several=False):
-    time, gyro, accel = log
-    head = "timestamp,TimeUS,I,GyrX,GyrY,GyrZ,AccX,AccY,AccZ,EG,EA,T,GH,AH"
-    unit = whole(np.arange(len(time)) % 2 * several)
-    last = [0 * time, 0 * time, 0 * time + 41.5, 0 * time, 0 * time]
-    columns = [1.7e9 + time, whole(1e6 * time + 1e7), unit, *(gyro * FRD).T, *(accel * FRD).T]
-    return table(path / "imu.csv", [head], [*columns, *last])
-
-
-def mavlink(path, log, scaled=False):
-    time, gyro, accel = log
-    stamp = "time_boot_ms" if scaled else "time_usec"
-    names = [f"{a}{n}" for n in ("acc", "gyro", "mag") for a in "xyz"]
-    head = ["timestamp", stamp, *names, "abs_pressure" if not scaled else "id", "temperature"]
-    rate, force, field = gyro * FRD, accel * FRD, np.tile([0.2, 0.0, 0.4], (len(time), 1))
-    if scaled:
-        force = 1000 * force / STANDARD_GRAVITY
-        vectors = [*force.T, *(1000 * rate).T, *(1000 * field).T]
-        columns = [whole(1e3 * time + 1e4), *map(whole, vectors), 0 * time, 0 * time + 4150]
-    else:
-        columns = [whole(1e6 * time + 1e7), *force.T, *rate.T, *field.T, 0 * time, 0 * time + 41.5]
-    return table(path / "imu.csv", [",".join(head)], [1.7e9 + time, *columns])
-
-
-def vectornav(path, log):
-    time, gyro, accel = log
-    names = [f"Uncomp{n}{a}" for n in ("Mag", "Accel", "Gyro") for a in AXES]
-    head = ",".join(["TimeStartup", *names, "Temperature", "Pressure"])
-    field = np.tile([0.2, 0.0, 0.4], (len(time), 1))
-    columns = [whole(1e9 * time + 5e9), *field.T, *(accel * FRD).T, *(gyro * FRD).T]
-    return table(path / "vn.csv", [head], [*columns, 0 * time + 41.5, 0 * time + 101.3])
 
 
 @pytest.mark.parametrize("write", [px4, ardupilot, mavlink, vectornav])
