@@ -78,7 +78,7 @@ def test_prediction_errors_are_freed_of_the_walk_that_they_show():
     assert_allclose([made.slow.r, made.slow.k2, made.walk.k2], [slow, k2, k2 / slow])
 
 
-@pytest.mark.parametrize("seed", [11, 12])
+@pytest.mark.parametrize("seed", [11, pytest.param(12, marks=pytest.mark.long)])
 def test_a_step_is_no_noise_beside_an_attitude(world, seed):
     """It was what the past predicts, and whitened away. Its instant to four periods of the band's
     rows, of which each holds both levels for as long; its size to four standard errors.
@@ -100,9 +100,8 @@ def test_a_step_that_no_part_has_is_not_called_clean_beside_an_attitude(world):
     assert "beyond belief" in closed.reason
 
 
-@pytest.mark.parametrize(
-    "degrees, seed", [pytest.param(0.1, 14, marks=pytest.mark.long), (0.6, 15)]
-)
+@pytest.mark.long
+@pytest.mark.parametrize("degrees, seed", [(0.1, 14), (0.6, 15)])
 def test_a_step_in_a_gap_of_the_attitude_is_not_called_clean(world, degrees, seed):
     """Of a reference that begins anew no row is at the edge, and levels are all that is seen: in
     the rows of the larger step it is more than noise, of the smaller over seconds.
