@@ -39,14 +39,6 @@ class MatrixAttitudeReader(ReaderOver):
         ]
 
     @property
-    def rate(self) -> float | None:  # type: ignore[override]
-        return self.reader.rate
-
-    @property
-    def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
-        return self.reader.clocks
-
-    @property
     def findings(self) -> tuple[Finding, ...]:  # type: ignore[override]
         said = f"the attitude is that of {self.bodies[0][0]} Rot[0] to Rot[8], column by column"
         return (*self.reader.findings, Finding("layout", "ref_q", 1, {"read_as": said}))

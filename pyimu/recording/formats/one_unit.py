@@ -27,22 +27,6 @@ class OneUnitReader(ReaderOver):
     unit: int
     _left_out: list[int] = field(default_factory=list, compare=False, repr=False)
 
-    @property
-    def header(self) -> list[str]:  # type: ignore[override]
-        return self.reader.header
-
-    @property
-    def rate(self) -> float | None:  # type: ignore[override]
-        return self.reader.rate
-
-    @property
-    def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
-        return self.reader.clocks
-
-    @property
-    def findings(self) -> tuple[Finding, ...]:  # type: ignore[override]
-        return self.reader.findings
-
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
         self._left_out[:] = [0]
         for columns, share in self.reader.batches([*positions, self.at], long):

@@ -77,6 +77,22 @@ class ReaderOver(Reader):
         return self.reader.path
 
     @property
+    def header(self) -> list[str]:  # type: ignore[override]
+        return self.reader.header
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:  # type: ignore[override]
+        return self.reader.findings
+
+    @property
+    def rate(self) -> float | None:  # type: ignore[override]
+        return self.reader.rate
+
+    @property
+    def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
+        return self.reader.clocks
+
+    @property
     def crowded(self) -> bool:  # type: ignore[override]
         return self.reader.crowded
 

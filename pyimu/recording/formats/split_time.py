@@ -33,9 +33,7 @@ class SplitTimeReader(ReaderOver):
     whole: int
     part: int
 
-    @property
-    def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
-        return self.reader.clocks
+    rate = None
 
     @property
     def parts(self) -> tuple[str, str]:

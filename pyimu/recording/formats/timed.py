@@ -23,6 +23,9 @@ class TimedReader(ReaderOver):
     source: str
     """Where the rate is from."""
 
+    rate = None
+    clocks = ()
+
     @property
     def findings(self) -> tuple[Finding, ...]:  # type: ignore[override]
         detail = {"rate": self.hertz, "from": self.source}

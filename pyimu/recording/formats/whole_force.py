@@ -35,14 +35,6 @@ class WholeForceReader(ReaderOver):
         return [*self.reader.header, *FORCE]
 
     @property
-    def rate(self) -> float | None:  # type: ignore[override]
-        return self.reader.rate
-
-    @property
-    def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
-        return self.reader.clocks
-
-    @property
     def findings(self) -> tuple[Finding, ...]:  # type: ignore[override]
         first, other = (self.reader.header[at[0]] for at in (self.gravity, self.user))
         said = f"the force is that of {first} and {other} together, with the other sign"
