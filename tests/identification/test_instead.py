@@ -6,8 +6,8 @@ from effect_logs.cases import make
 from effect_results.record import closed
 
 import pyimu
+from pyimu.identification.noise.jumps import POPCORN
 from pyimu.identification.noise.laws import kinds, names_of
-from pyimu.identification.noise.named import POPCORN
 from pyimu.identification.report.page import page
 from pyimu.identification.search.by_chance import Chance
 from pyimu.identification.search.forward import AS_NOISE

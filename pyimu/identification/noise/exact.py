@@ -17,7 +17,7 @@ DIFFUSE = 1e8
 
 
 @njit(cache=True)
-def _filtered(r, steps, white, walk, variances, times, diffuse):
+def filtered(r, steps, white, walk, variances, times, diffuse):
     """Log-likelihood (n,) of each residual given those before it.
 
     The first state is bias and walk together, the others are the processes, stationary at first.
@@ -102,7 +102,7 @@ class AxisNoise:
             variances = variances * 2.0 * (z + np.expm1(-z)) / z**2
         diffuse = DIFFUSE * (float(np.mean(white)) + float(variances.sum()))
         return _first_left_out(
-            _filtered(rows.r - rows.r[0], rows.steps, white, walk, variances, times, diffuse)
+            filtered(rows.r - rows.r[0], rows.steps, white, walk, variances, times, diffuse)
         )
 
 

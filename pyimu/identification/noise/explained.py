@@ -25,26 +25,10 @@ from pyimu.identification.noise.exact import AxisNoise
 from pyimu.identification.noise.known import state_of
 from pyimu.identification.noise.laws import Kind, kinds
 from pyimu.identification.noise.rows import Rows, rows_of
-from pyimu.identification.noise.telegraph import FINE, RATES, telegraph_likelihood
-from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.forward import Refused
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.sensor import Sensor
-
-
-def likelihood_of(
-    sensor: Sensor, fit: Fit, held: tuple[Trial, ...], free: frozenset[str], rounds: bool
-) -> float | None:
-    """Log-likelihood [nat], penalised, of the fitted and the held-out rows of a model beside the
-    kinds of noise that explain most of its residual; None where ``noise_of`` says nothing.
-    """
-    known = Explained.of(sensor, fit, held, free, rounds)
-    if known is None:
-        return None
-    found = known.chosen_of(1)
-    jumps = found.popcorn()
-    return found.explained() + sum(jumps.values())
 
 
 @dataclass(frozen=True)
@@ -107,7 +91,7 @@ class Explained:
         spectrum, motion = axis.spectrum.fit()[0], None
         if axis.motion is not None:
             motion = axis.motion.fit()[0]
-        loose = [k for k in self.kinds if k.name in self._loose(i)]
+        loose = [k for k in self.kinds if k.name in self.loose(i)]
         for kind in self.kinds:
             square = axis.had.get(kind.name, 0.0) ** 2
             form = _form(self.sensor, kind, i)
@@ -123,7 +107,7 @@ class Explained:
             out[white] = (self._white(i, motion), {})
         return AxisNoise({k: v for k, v in out.items() if v[0] > 0.0}, float(self.beside[i]))
 
-    def _loose(self, i: int) -> list[str]:
+    def loose(self, i: int) -> list[str]:
         """The kinds that are left to the data on an axis, in the order of their columns."""
         had = self.sensor.values.get(WHITE[0], {}).get(WHITE[1], np.zeros(3))[i]
         names = [k.name for k in self.kinds if k.name in (WHITE[0], WALK[0])]
@@ -144,56 +128,6 @@ class Explained:
         return total
 
     # What speaks against it
-
-    def popcorn(self) -> dict[int, float]:
-        """The axes whose residual jumps between two levels, each at instants of its own or all
-        together, and the log-likelihood [nat] by which that is likelier than the slow noise that
-        was chosen for them.
-        """
-        slow = [i for i in self.state.axes if self._wanders(i)]
-        apart = {i: ahead for i in slow if (ahead := self._jumps([i])) > 0.0}
-        together = self._jumps(slow) if len(slow) > 1 else 0.0
-        if together > sum(apart.values()):
-            apart = dict.fromkeys(slow, together / len(slow))
-        return apart if sum(apart.values()) > SET_WIDTH else {}
-
-    def _slow(self, i: int) -> list[Term]:
-        return [t for t in self.state.found.get(i, ()) if _is_slow(t.kind)]
-
-    def _wanders(self, i: int) -> bool:
-        """Whether an axis has more slow noise than is known of it beforehand."""
-        return bool(self._slow(i)) or (WALK[0] in self._loose(i) and self.fitted[i].k2 > 0.0)
-
-    def _jumps(self, axes: list[int]) -> float:
-        """Log-likelihood [nat], penalised, by which jumps of ``axes`` at the same instants are
-        likelier than the slow noise that was chosen for them.
-        """
-        noises = [self.sizes(self.state, i) for i in axes]
-        walk = np.array([self._walk(i) for i in axes])
-        ahead = 0.0
-        for logs in zip(*(self.logs[i] for i in axes), strict=True):
-            if not logs[0].fitted:
-                continue
-            seen = [one.seen().means(FINE) for one in logs]
-            each = list(zip(noises, seen, strict=True))
-            smooth = sum(float(noise.likelihood(one).sum()) for noise, one in each)
-            white = np.column_stack([noise.variance(one) for noise, one in each])
-            ahead += telegraph_likelihood(seen, white, walk) - smooth
-            ahead -= PENALTY * (len(axes) + RATES)
-        return ahead + PENALTY * sum(self._numbers(i) for i in axes)
-
-    def _numbers(self, i: int) -> int:
-        """Of the slow noise of an axis, whose numbers are those of all logs."""
-        loose = WALK[0] in self._loose(i)
-        return loose + sum(1 + t.kind.scans for t in self._slow(i))
-
-    def _walk(self, i: int) -> float:
-        """The random walk that is known of an axis; none where it is left to the data, in which
-        jumps make one.
-        """
-        if WALK[0] in self._loose(i):
-            return 0.0
-        return self.start.axes[i].had.get(WALK[0], 0.0) ** 2
 
     def _less(self, terms: Sequence[Term], i: int) -> Self:
         state = self.state
@@ -231,10 +165,6 @@ class Explained:
         """Whether the part has the kind, on some axis, so that its value changes."""
         values = self.sensor.values.get(kind.name)
         return values is not None and bool(np.any(values[kind.parameter]))
-
-
-def _is_slow(kind: Kind) -> bool:
-    return bool(kind.effect.law.walk or kind.effect.law.markov)
 
 
 def _of_reference(fit: Fit) -> np.ndarray:

@@ -11,6 +11,7 @@ from pyimu.identification.found import Added, Changed
 from pyimu.identification.noise.choose import Chosen, State, Term, refined
 from pyimu.identification.noise.exact import AxisNoise
 from pyimu.identification.noise.explained import Explained
+from pyimu.identification.noise.jumps import Jump, jumps_of
 from pyimu.identification.noise.laws import Kind, names_of
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.forward import Investigation, Refused
@@ -21,9 +22,6 @@ from pyimu.model.sensor import Sensor
 RELEVANT = 0.005
 """Share of a declared noise by which data must differ from it before it is said: half a unit of the
 last of three digits, with which parts declare it."""
-
-POPCORN = "random telegraph (popcorn) noise"
-"""What jumps between two levels at random instants."""
 
 DIFFERENTIATED = "the noise of the reference, or of means over rows, hides kinds of noise"
 
@@ -65,7 +63,7 @@ def noise_of(
     if known is None:
         return Noise(unasked=DIFFERENTIATED)
     found = known.chosen_of(sensors)
-    jumps = found.popcorn()
+    jumps = jumps_of(found)
     if jumps:
         rest = State({i: a for i, a in known.state.axes.items() if i not in jumps})
         found = replace(known, state=rest).chosen_of(sensors)
@@ -82,7 +80,7 @@ class _Named(Explained):
         noise = AxisNoise({by_name[n]: (s, {}) for n, s in squares.items() if s > 0.0})
         return sum(float(noise.likelihood(one)[one.fitted :].sum()) for one in self.logs[i])
 
-    def told(self, jumps: Mapping[int, float]) -> Noise:
+    def told(self, jumps: Mapping[int, Jump]) -> Noise:
         added = [self._added(c) for c in self.chosen if not self._is_declared(c.kind)]
         changed = [c for one in self.chosen if (c := self._changed(one)) is not None]
         white = self._changed_beside()
@@ -100,15 +98,16 @@ class _Named(Explained):
             tuple(added),
             tuple(changed),
             self._drift(),
-            tuple(self._popcorn(i, gain) for i, gain in jumps.items()),
+            tuple(self._jumping(i, jump) for i, jump in jumps.items()),
             self.refused,
             values,
             std,
             gained if self.chosen else 0.0,
         )
 
-    def _popcorn(self, i: int, gain: float) -> Unexplained:
-        return Unexplained(self.sensor.kind, "xyz"[i], (), float(np.exp(-gain)), POPCORN)
+    def _jumping(self, i: int, jump: Jump) -> Unexplained:
+        chance = float(np.exp(-jump.gain))
+        return Unexplained(self.sensor.kind, "xyz"[i], (), chance, jump.shape)
 
     def _of_all(self, name: str) -> np.ndarray:
         out = np.zeros(3)

@@ -9,6 +9,7 @@ from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.formula.effect import TERM, coefficients
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.found import Added, AtRest, Errors
+from pyimu.identification.noise.jumps import SHAPES
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.model.arguments import Parameter
@@ -169,7 +170,7 @@ def dependence(closed: Outcome) -> str:
 
 def _does(u: Unexplained) -> str:
     if u.shape:
-        return f"is {u.shape}: it jumps between two levels at random instants"
+        return ": ".join([f"is {u.shape}", *([SHAPES[u.shape]] if u.shape in SHAPES else [])])
     return f"depends on {joined([_input(d) for d in u.depends_on])} (p = {number(u.p_value, 1)})"
 
 

@@ -1,0 +1,145 @@
+"""What jumps in a residual in place of slow noise: between two levels, or to new ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.noise.choose import Term
+from pyimu.identification.noise.explained import Explained
+from pyimu.identification.noise.levels import NUMBERS, levels_likelihood, markov_likelihood
+from pyimu.identification.noise.rows import Rows
+from pyimu.identification.noise.telegraph import FINE, RATES, telegraph_likelihood
+from pyimu.identification.search.choice import SET_WIDTH
+from pyimu.identification.search.screen import PENALTY
+from pyimu.model.catalogue import WALK
+from pyimu.model.sensor import Sensor
+
+POPCORN = "random telegraph (popcorn) noise"
+LEVELS = "a bias of many levels"
+
+SHAPES = {
+    POPCORN: "it jumps between two levels at random instants",
+    LEVELS: "it jumps to another level at random instants, and stays there until the next",
+}
+"""By name what is random and no effect, and how that looks."""
+
+
+Likelihood = Callable[[Sequence[Rows], np.ndarray, np.ndarray], float]
+
+
+class Jump(NamedTuple):
+    """The log-likelihood [nat] by which jumps are likelier than slow noise, and their shape."""
+
+    gain: float
+    shape: str
+
+
+def jumps_of(found: Explained) -> dict[int, Jump]:
+    """The axes whose residual jumps, in place of the slow noise that was chosen for them: each at
+    instants of its own or all together.
+    """
+    jumping = _Jumping(found)
+    slow = [i for i in found.state.axes if jumping.wanders(i)]
+    if not slow:
+        return {}
+    apart = {i: ahead for i in slow if (ahead := jumping.popcorn([i])) > 0.0}
+    together = jumping.popcorn(slow) if len(slow) > 1 else 0.0
+    if together > sum(apart.values()):
+        apart = dict.fromkeys(slow, together / len(slow))
+    levels = jumping.levels(slow)
+    shape = POPCORN
+    if levels > sum(apart.values()):
+        apart, shape = dict.fromkeys(slow, levels / len(slow)), LEVELS
+    if sum(apart.values()) <= SET_WIDTH:
+        return {}
+    return {i: Jump(gain, shape) for i, gain in apart.items()}
+
+
+def likelihood_of(
+    sensor: Sensor, fit: Fit, held: tuple[Trial, ...], free: frozenset[str], rounds: bool
+) -> float | None:
+    """Log-likelihood [nat], penalised, of the fitted and the held-out rows of a model beside the
+    kinds of noise that explain most of its residual; None where ``noise_of`` says nothing.
+    """
+    known = Explained.of(sensor, fit, held, free, rounds)
+    if known is None:
+        return None
+    found = known.chosen_of(1)
+    return found.explained() + sum(jump.gain for jump in jumps_of(found).values())
+
+
+@dataclass(frozen=True)
+class _Jumping:
+    found: Explained
+
+    def popcorn(self, axes: list[int]) -> float:
+        """Log-likelihood [nat], penalised, by which jumps between two levels at the same instants
+        are likelier than the slow noise of the axes.
+        """
+        return self._of(telegraph_likelihood, axes, RATES) - self._slow_noise(axes)
+
+    def levels(self, axes: list[int]) -> float:
+        """That of jumps to new levels, which have to be likelier than what is smooth and of the
+        same spectrum, too: what was chosen may be another that comes near it.
+        """
+        jumping = self._of(levels_likelihood, axes, NUMBERS)
+        ahead = jumping - self._slow_noise(axes)
+        if ahead > SET_WIDTH:
+            ahead = min(ahead, jumping - self._of(markov_likelihood, axes, len(axes)))
+        return ahead
+
+    def _of(self, likelihood: Likelihood, axes: list[int], others: int) -> float:
+        """Largest log-likelihood of all logs, of a size for each axis and log and of so many
+        ``others`` numbers for each log.
+        """
+        walk = np.array([self._walk(i) for i in axes])
+        each = [(seen, np.column_stack(white)) for seen, white, _ in self._logs(axes)]
+        total = sum(likelihood(seen, white, walk) for seen, white in each)
+        return total - PENALTY * len(each) * (len(axes) + others)
+
+    def _slow_noise(self, axes: list[int]) -> float:
+        total = sum(smooth for _, _, smooth in self._logs(axes))
+        return total - PENALTY * sum(self._numbers(i) for i in axes)
+
+    def _logs(self, axes: list[int]) -> list[tuple[list[Rows], list[np.ndarray], float]]:
+        """Of each fitted log the means, the variance of their white noise, and the log-likelihood
+        of the noise that was chosen.
+        """
+        found, out = self.found, []
+        noises = [found.sizes(found.state, i) for i in axes]
+        for logs in zip(*(found.logs[i] for i in axes), strict=True):
+            if logs[0].fitted:
+                seen = [one.seen().means(FINE) for one in logs]
+                each = list(zip(noises, seen, strict=True))
+                smooth = sum(float(noise.likelihood(one).sum()) for noise, one in each)
+                out.append((seen, [noise.variance(one) for noise, one in each], smooth))
+        return out
+
+    def wanders(self, i: int) -> bool:
+        """Whether an axis has more slow noise than is known of it beforehand."""
+        found = self.found
+        loose = WALK[0] in found.loose(i)
+        return bool(self._slow(i)) or (loose and found.fitted[i].k2 > 0.0)
+
+    def _slow(self, i: int) -> list[Term]:
+        laws = ((t, t.kind.effect.law) for t in self.found.state.found.get(i, ()))
+        return [t for t, law in laws if law.walk or law.markov]
+
+    def _numbers(self, i: int) -> int:
+        """Of the slow noise of an axis, whose numbers are those of all logs."""
+        loose = WALK[0] in self.found.loose(i)
+        return loose + sum(1 + t.kind.scans for t in self._slow(i))
+
+    def _walk(self, i: int) -> float:
+        """The random walk that is known of an axis; none where it is left to the data, in which
+        jumps make one.
+        """
+        if WALK[0] in self.found.loose(i):
+            return 0.0
+        return self.found.start.axes[i].had.get(WALK[0], 0.0) ** 2

@@ -1,0 +1,161 @@
+"""A bias that is another one after each of many instants, and stays until the next: after each
+reversal, each handling, each calibration of its own at rest.
+
+Its spectrum is that of a Gauss-Markov process whose correlation time is the mean time between two
+instants, so that no spectrum tells the two apart; the likelihood of the samples does, by recursion
+over the time since the last jump (Fearnhead and Liu 2007; Adams and MacKay 2007).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numba import njit
+from scipy.optimize import minimize
+
+from pyimu.identification.noise.exact import DIFFUSE
+from pyimu.identification.noise.exact import filtered as exact_filtered
+from pyimu.identification.noise.rows import Rows
+from pyimu.identification.noise.telegraph import DWELLS, FEWEST, SHORT
+
+KEPT = 24
+"""Instants of the last jump that are kept in mind after each row, the likeliest."""
+
+UNLIKELY = 1e-5
+"""One that is so many times less likely than the likeliest is dropped before that."""
+
+NUMBERS = 1
+"""Numbers that levels have beside the size of each axis's: how often they change."""
+
+
+@njit(cache=True)
+def _likelihood(r, steps, white, walk, spread, rate):
+    """Log-likelihood [nat, constant left out] of residuals (n, m) beside levels of variance
+    ``spread`` (m,) about zero, all axes' drawn anew ``rate`` times a second, which walk by ``walk``
+    (m,) a second between; ``white`` (n, m) is the variance of a row.
+    """
+    n, m = r.shape
+    weight, mean, variance = np.zeros(KEPT + 1), np.zeros((KEPT + 1, m)), np.zeros((KEPT + 1, m))
+    weight[0], count, total = 1.0, 1, 0.0
+    variance[0] = spread
+    logs = np.zeros(KEPT + 1)
+    for k in range(n):
+        if k > 0:
+            jump = -np.expm1(-rate * steps[k])
+            for i in range(count):
+                weight[i] *= 1.0 - jump
+                for a in range(m):
+                    variance[i, a] += walk[a] * steps[k]
+            weight[count] = jump
+            for a in range(m):
+                mean[count, a], variance[count, a] = 0.0, spread[a]
+            count += 1
+        best = -np.inf
+        for i in range(count):
+            product, square = 1.0, 0.0
+            for a in range(m):
+                f, v = variance[i, a] + white[k, a], r[k, a] - mean[i, a]
+                gain = variance[i, a] / f
+                product *= f / white[k, a]
+                square += v * v / f
+                mean[i, a] += gain * v
+                variance[i, a] *= 1.0 - gain
+            logs[i] = -0.5 * (square + np.log(product))
+            best = max(best, logs[i])
+        summed = 0.0
+        for i in range(count):
+            weight[i] *= np.exp(logs[i] - best)
+            summed += weight[i]
+        total += best + np.log(summed)
+        for a in range(m):
+            total -= 0.5 * np.log(white[k, a])
+        count = _kept(weight, mean, variance, count, summed)
+    return total
+
+
+@njit(cache=True)
+def _kept(weight, mean, variance, count, summed):
+    """The number of hypotheses that stay, moved to the front, their weights adding up to one."""
+    largest = weight[:count].max()
+    stay, left = 0, 0.0
+    for i in range(count):
+        if weight[i] > UNLIKELY * largest:
+            weight[stay] = weight[i]
+            mean[stay], variance[stay] = mean[i], variance[i]
+            left += weight[i]
+            stay += 1
+    if stay > KEPT:
+        least = np.argmin(weight[:stay])
+        left -= weight[least]
+        stay -= 1
+        weight[least] = weight[stay]
+        mean[least], variance[least] = mean[stay], variance[stay]
+    for i in range(stay):
+        weight[i] /= left
+    return stay
+
+
+def levels_likelihood(axes: Sequence[Rows], white: np.ndarray, walk: np.ndarray) -> float:
+    """The largest log-likelihood [nat, constant left out] of levels that change on all axes of one
+    log at the same instants, given their first rows.
+
+    ``white`` (n, m) is the variance of a sample and ``walk`` (m,) what the bias walks in a second.
+    """
+    r = np.column_stack([one.r for one in axes])
+    r = r - r.mean(axis=0)
+    spread = _spread(axes, white)
+    if not np.all(spread):
+        return -np.inf
+    m, steps = len(axes), axes[0].steps
+    seconds = float(steps.sum())
+
+    def lost(p: np.ndarray) -> float:
+        size, rate = spread * np.exp(np.clip(p[:m], -8.0, 8.0)), np.exp(np.clip(p[m], -12.0, 3.0))
+        # What all levels tell of their mean, over which the bias, of any size, is integrated.
+        told = (1.0 + rate * seconds) / size
+        return 0.5 * float(np.log(told).sum()) - _likelihood(r, steps, white, walk, size, rate)
+
+    starts = [np.concatenate([np.zeros(m), [-np.log(d)]]) for d in DWELLS]
+    first = min(starts, key=lost)
+    simplex = first + np.vstack([np.zeros(m + 1), 0.5 * np.eye(m + 1)])
+    options = {"initial_simplex": simplex, "xatol": 3e-2, "fatol": 0.05, "maxfev": 60 * (m + 1)}
+    found = minimize(lost, first, method="Nelder-Mead", options=options)
+    jumps = np.exp(np.clip(found.x[m], -12.0, 3.0)) * seconds
+    return -float(found.fun) if jumps > FEWEST else -np.inf
+
+
+def markov_likelihood(axes: Sequence[Rows], white: np.ndarray, walk: np.ndarray) -> float:
+    """The largest log-likelihood [nat, constant left out] of a Gauss-Markov process on each axis,
+    of a size and a correlation time of its own, given the first rows: what of the same spectrum
+    does not jump.
+    """
+    total = 0.0
+    for a, (one, spread) in enumerate(zip(axes, _spread(axes, white), strict=True)):
+        total += _markov_of_axis(one, np.ascontiguousarray(white[:, a]), float(walk[a]), spread)
+    return total
+
+
+def _markov_of_axis(one: Rows, white: np.ndarray, walk: float, spread: float) -> float:
+    r, diffuse = one.r - one.r[0], DIFFUSE * (float(white.mean()) + spread)
+
+    def lost(p: np.ndarray) -> float:
+        variance = np.array([spread * np.exp(np.clip(p[0], -8.0, 8.0))])
+        time = np.array([np.exp(np.clip(p[1], -3.0, 12.0))])
+        each = exact_filtered(r, one.steps, white, walk, variance, time, diffuse)
+        return -float(each[1:].sum())
+
+    first = min(([0.0, np.log(d)] for d in DWELLS), key=lost)
+    options = {"xatol": 3e-2, "fatol": 0.05, "maxfev": 120}
+    simplex = first + np.vstack([np.zeros(2), 0.5 * np.eye(2)])
+    found = minimize(
+        lost, first, method="Nelder-Mead", options=options | {"initial_simplex": simplex}
+    )
+    return -float(found.fun)
+
+
+def _spread(axes: Sequence[Rows], white: np.ndarray) -> np.ndarray:
+    """Variance (m,) of short means beyond white noise's; zero where there is none."""
+    length = max(1, round(SHORT / axes[0].h))
+    short = np.column_stack([one.means(SHORT).r for one in axes])
+    return np.maximum(short.var(axis=0) - white.mean(axis=0) / length, 0.0)
