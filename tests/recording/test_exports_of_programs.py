@@ -144,6 +144,23 @@ def test_the_rate_in_the_first_line_of_actigraph():
     assert told_from(lines).rate == 30.0
 
 
+RATES = {
+    "# Config: data_rate = 2000.0 Hz, filter = 488 Hz, acc_range = 4 g": 2000.0,
+    "# ODR: 104 Hz": 104.0,
+    "# fs=1.6 kHz": 1600.0,
+    "# Sampling frequency (Hz): 51.2": 51.2,
+    "# sample_rate_hz = 400": 400.0,
+    "# Output Data Rate [kHz]: 6.4": 6400.0,
+    "# filter = 488 Hz": None,
+    "# offs = 12 Hz": None,
+}
+
+
+@pytest.mark.parametrize("line", RATES)
+def test_a_rate_in_a_line_of_comment(line):
+    assert told_from([line, "a_x,a_y,a_z", *["0.1,0.2,0.9"] * 9]).rate == RATES[line]
+
+
 @pytest.mark.parametrize("stated", [True, False])
 def test_xsens_a_fine_time_without_numbers(stated, log, tmp_path):
     """As wireless trackers have it: the rate of the comments counts, or is asked for."""

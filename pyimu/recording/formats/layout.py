@@ -68,11 +68,13 @@ _SEPARATOR = re.compile(r'"?sep=.?"?[,;\t]*', re.I)
 """The first line of a table for a spreadsheet, which says what separates its cells."""
 
 _RATE = re.compile(
-    r"\b(?:(?:update|sampl\w*|output|data)\s*(?:data\s*)?(?:rate|freq\w*)\W{1,4}"
-    r"|date format \S+ at )([\d.]+)\s*(k?)Hz",
+    r"(?<![a-z])(?:(?:(?:update|sampl[a-z]*|output|data)[\s_-]*(?:data[\s_-]*)?(?:rate|freq[a-z]*)"
+    r"|odr|fs)(?:\W{1,4}([\d.]+)\s*(k?)Hz|[\s_]*[(\[]?(k?)Hz[)\]]?\W{1,4}([\d.]+))"
+    r"|date format \S+ at ([\d.]+)\s*(k?)Hz)",
     re.I,
 )
-"""Also as the first line of ActiGraph's tables says it."""
+"""With its unit behind the number or behind the name, and as the first line of ActiGraph's tables
+says it."""
 
 _PERIOD = re.compile(r"\bsampling (?:rate|time|period|interval) *[:=] *([\d.]+) *ms\b", re.I)
 """The time between samples, which HyperIMU calls their rate."""
@@ -420,7 +422,8 @@ def _stated_rate(line: str) -> float | None:
     match, period = _RATE.search(line), _PERIOD.search(line)
     try:
         if match:
-            value = float(match[1]) * (1000 if match[2] else 1)
+            number, kilo = (match[1] or match[4] or match[5]), (match[2] or match[3] or match[6])
+            value = float(number) * (1000 if kilo else 1)
         else:
             value = 1000 / float(period[1]) if period else 0.0
     except (ValueError, ZeroDivisionError):
