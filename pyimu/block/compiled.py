@@ -67,7 +67,7 @@ HAND_WRITTEN = ("loop.h", "noise.c", "noise.h", "prefix.h", "vector.h")
 
 VECTORS = '#include "vector.h"\n'
 
-VECTOR_WRITERS = ("alike.py", "vector_plan.py", "unit_order.py", "vectors.py")
+VECTOR_WRITERS = ("alike.py", "vector_cost.py", "vector_plan.py", "unit_order.py", "vectors.py")
 """What makes vectors of the source by which a library is named: that takes longer than to write it,
 and is left until there is none."""
 

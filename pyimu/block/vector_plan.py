@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import casadi as ca
@@ -56,6 +57,10 @@ class Units:
             return [*self.alike.aligned(value)]
         return self._sources(value)
 
+    def cost(self, value: Value) -> float:
+        """That of a number or a vector."""
+        return self.number(value) if isinstance(value, int) else self.vector(value)[1]
+
     def number(self, k: int) -> float:
         """The cost of a value as a number."""
         if k in self.choice:
@@ -103,6 +108,45 @@ class Units:
         return (read[0][0], start) if 0 <= start and max(entries) < start + MOST else None
 
 
+def stores(alike: Alike, choice: Choice, entries: dict[int, int]) -> tuple[float, list[Value]]:
+    """What it costs to store the ``entries`` of a result, and the values that are stored."""
+    found = [*_stored(alike, choice, entries)]
+    return sum(cost for *_, cost in found), [made for *_, made, _ in found if made is not None]
+
+
+def _stored(
+    alike: Alike, choice: Choice, entries: dict[int, int]
+) -> Iterator[tuple[int, str, Lanes, Value | None, float]]:
+    """Of each unit that stores some of the ``entries`` of a result the first of these, its kind and
+    lanes, the value that it takes, None where that is an input, and its cost.
+    """
+    done: set[int] = set()
+    for entry, k in entries.items():
+        if entry in done:
+            continue
+        copied = _copied(alike, entries, entry)
+        if copied:
+            done.update(range(entry, entry + MOST))
+            yield entry, "copied", copied, None, STORED[MOST]
+            continue
+        lanes, lane = choice.get(k, ((k,), 0))
+        made = None if alike.is_leaf(k) else lanes if len(lanes) > 1 else k
+        if lane or any(entries.get(entry + n) != j for n, j in enumerate(lanes)):
+            lanes = (k,)
+        done.update(range(entry, entry + len(lanes)))
+        yield entry, "stored", lanes, made, STORED[len(lanes)] + (len(lanes) == 1) * (lane > 1)
+
+
+def _copied(alike: Alike, entries: dict[int, int], entry: int) -> Lanes:
+    """Four consecutive numbers of an input that become a result as they are; else nothing."""
+    lanes = tuple(entries.get(entry + n, entries[entry]) for n in range(MOST))
+    read = [alike.read[k] for k in lanes]
+    first = read[0]
+    if first and read == [(first[0], first[1] + n) for n in range(MOST)]:
+        return lanes
+    return ()
+
+
 class Plan:
     """The units that make the results of a program by a ``choice`` of vectors, and their ``cost``.
 
@@ -120,33 +164,11 @@ class Plan:
             self._store(number, entries)
 
     def _store(self, number: int, entries: dict[int, int]) -> None:
-        stored: set[int] = set()
-        for entry, k in entries.items():
-            if entry in stored:
-                continue
-            copied = self._copied(entries, entry)
-            if copied:
-                stored.update(range(entry, entry + MOST))
-                self.cost += STORED[MOST]
-                self.units.append(Unit("copied", copied, (number, entry)))
-                continue
-            lanes, lane = self.choice.get(k, ((k,), 0))
-            if not self.alike.is_leaf(k):
-                self._make(lanes if len(lanes) > 1 else k)
-            if lane or any(entries.get(entry + n) != j for n, j in enumerate(lanes)):
-                lanes = (k,)
-            self.cost += STORED[len(lanes)] + (len(lanes) == 1) * (lane > 1)
-            stored.update(range(entry, entry + len(lanes)))
-            self.units.append(Unit("stored", lanes, (number, entry)))
-
-    def _copied(self, entries: dict[int, int], entry: int) -> Lanes:
-        """Four consecutive numbers of an input that become a result as they are; else nothing."""
-        lanes = tuple(entries.get(entry + n, entries[entry]) for n in range(MOST))
-        read = [self.alike.read[k] for k in lanes]
-        first = read[0]
-        if first and read == [(first[0], first[1] + n) for n in range(MOST)]:
-            return lanes
-        return ()
+        for entry, kind, lanes, made, cost in _stored(self.alike, self.choice, entries):
+            if made is not None:
+                self._make(made)
+            self.cost += cost
+            self.units.append(Unit(kind, lanes, (number, entry)))
 
     def _make(self, wanted: Value) -> None:
         """Append what a value needs, and then itself, as far as it is not there yet."""

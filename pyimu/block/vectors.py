@@ -16,7 +16,8 @@ from pyimu.block.alike import MOST, VECTOR, Alike, Lanes
 from pyimu.block.program import program
 from pyimu.block.straight import SPELLED, as_body, name_of, places, straight
 from pyimu.block.unit_order import ordered
-from pyimu.block.vector_plan import Choice, Cycle, Plan, Unit, Units
+from pyimu.block.vector_cost import Cost
+from pyimu.block.vector_plan import Choice, Plan, Unit
 
 LEAST_GAIN = 0.01
 """Instructions that a vector must save."""
@@ -42,19 +43,13 @@ def chosen(alike: Alike, sizes: list[int]) -> Choice:
 
 def _with_seeds(alike: Alike, choice: Choice, sizes: list[int], seeds: Iterable[Lanes]) -> Choice:
     """The choice, and what of the ``seeds`` lowers the cost."""
-    cost = Plan(alike, choice, sizes).cost
+    cost = Cost(alike, choice, sizes)
     for seed in seeds:
         if any(k in choice for k in seed):
             continue
         wider = _extended(alike, choice, seed)
-        if not _may_save(Units(alike, choice, sizes), Units(alike, wider, sizes)):
-            continue
-        try:
-            found = Plan(alike, wider, sizes).cost
-        except Cycle:
-            continue
-        if found < cost - LEAST_GAIN:
-            choice, cost = wider, found
+        if cost.widened(wider, LEAST_GAIN):
+            choice = wider
     return choice
 
 
@@ -69,16 +64,6 @@ def _extended(alike: Alike, choice: Choice, seed: Lanes) -> Choice:
             choice |= {k: (lanes, lane) for lane, k in enumerate(lanes)}
             left += alike.aligned(lanes)
     return choice
-
-
-def _may_save(before: Units, after: Units) -> bool:
-    """Whether the vectors of a wider choice cost less than the numbers and lanes in their place."""
-    new = [k for k in after.choice if k not in before.choice]
-    vectors_ = {after.choice[k][0] for k in new}
-    filled = {a for v in vectors_ for a in after.alike.aligned(v)} - vectors_
-    taken = {k for a in filled for k in a if k in before.choice}
-    saved = sum(before.number(k) for k in (*new, *taken))
-    return saved > sum(after.vector(v)[1] for v in (*vectors_, *filled))
 
 
 class _Text:

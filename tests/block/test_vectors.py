@@ -17,8 +17,9 @@ from pyimu.block.stepping import step_through
 from pyimu.block.straight import SPELLED, straight
 from pyimu.block.unit_order import _needs, ordered
 from pyimu.block.variables import Variable
+from pyimu.block.vector_cost import Cost
 from pyimu.block.vector_plan import Cycle, Plan
-from pyimu.block.vectors import chosen, vectors
+from pyimu.block.vectors import LEAST_GAIN, _extended, chosen, vectors
 
 SPECIAL = [0.0, -0.0, 1.0, -1.0, 0.5, -3.25, np.inf, -np.inf, np.nan, 5e-324, 1e308, -1e-310]
 
@@ -113,12 +114,32 @@ def test_each_unit_follows_what_it_needs():
 
 def test_vectors_that_wait_for_each_other_are_refused():
     """A sum and its own operand in one vector."""
-    x = ca.SX.sym("x", 4)
+    x = ca.SX.sym("x", 5)
     inner = x[0] + x[1]
-    one = program(ca.Function("f", [x], [ca.vertcat(inner, inner + x[2])]))
-    first, second = (k for k, i in enumerate(one.instructions) if i.op == ca.OP_ADD)
+    sums = ca.vertcat(inner, inner + x[2], x[3] + x[4])
+    alike = Alike(program(ca.Function("f", [x], [sums])))
+    lanes = tuple(k for k, op in enumerate(alike.op) if op == ca.OP_ADD)
+    choice = {k: (lanes, n) for n, k in enumerate(lanes)}
     with pytest.raises(Cycle):
-        Plan(Alike(one), {first: ((first, second), 0), second: ((first, second), 1)}, [4])
+        Plan(alike, choice, [5])
+    assert not Cost(alike, {}, [5]).widened(choice, -100.0)
+
+
+def test_the_cost_that_is_followed_is_that_of_the_plan():
+    """From choice to choice, those that are not taken among them."""
+    step = attitude_ukf(pyimu.part("imt30")).prepared.step
+    (function,) = (f for f in step.find_functions() if f.name() == "by_velocity")
+    alike, sizes = Alike(program(function)), [function.nnz_in(k) for k in range(function.n_in())]
+    choice, taken = {}, []
+    cost = Cost(alike, choice, sizes)
+    for seed in (*alike.neighbours(), *alike.likenesses(choice)):
+        if not any(k in choice for k in seed):
+            wider = _extended(alike, choice, seed)
+            taken.append(cost.widened(wider, LEAST_GAIN))
+            choice = wider if taken[-1] else choice
+            if len(taken) % 10 == 0:
+                assert cost.total == pytest.approx(Plan(alike, choice, sizes).cost, rel=1e-9)
+    assert 5 < sum(taken) < len(taken) - 5
 
 
 def test_a_function_with_a_call_stays_as_casadi_writes_it():
