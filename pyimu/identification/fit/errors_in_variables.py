@@ -34,9 +34,15 @@ to be seen."""
 
 
 def moved(trial: Trial, sign: int) -> Trial:
-    """The trial with its reference moved by ``STEP`` of its noise."""
+    """The trial with its reference moved by ``STEP`` of its noise, made once for all fits to it."""
     if trial.noise is None:
         return trial
+    if sign not in trial.moved:
+        trial.moved[sign] = _moved(trial, sign)
+    return trial.moved[sign]
+
+
+def _moved(trial: Trial, sign: int) -> Trial:
     u, more = copied(trial.u), sign * STEP * trial.noise
     u[:, OWN[trial.kind]] += more
     for a, b in trial.segments:

@@ -140,6 +140,13 @@ class Trial:
         """Times (m,) s of the rows that its band gives."""
         return self.time[self.band.centres(self.row_segments)]
 
+    @cached_property
+    def moved(self) -> dict[int, Trial]:
+        """The trial with its reference moved by its noise up (1) and down (-1), as
+        ``errors_in_variables`` puts it here once it is asked for.
+        """
+        return {}
+
     @property
     def derivatives(self) -> int:
         """How often what the reference is from was differentiated, at least once."""
