@@ -129,8 +129,8 @@ def _stored(
             done.update(range(entry, entry + MOST))
             yield entry, "copied", copied, None, STORED[MOST]
             continue
-        lanes, lane = choice.get(k, ((k,), 0))
-        made = None if alike.is_leaf(k) else lanes if len(lanes) > 1 else k
+        lanes, lane = choice.get(k, (_constants(alike, entries, entry) or (k,), 0))
+        made = lanes if len(lanes) > 1 else None if alike.is_leaf(k) else k
         if lane or any(entries.get(entry + n) != j for n, j in enumerate(lanes)):
             lanes = (k,)
         done.update(range(entry, entry + len(lanes)))
@@ -145,6 +145,13 @@ def _copied(alike: Alike, entries: dict[int, int], entry: int) -> Lanes:
     if first and read == [(first[0], first[1] + n) for n in range(MOST)]:
         return lanes
     return ()
+
+
+def _constants(alike: Alike, entries: dict[int, int], entry: int) -> Lanes:
+    """Four consecutive entries of a result that are constants; else nothing."""
+    lanes = tuple(entries[entry + n] for n in range(MOST) if entry + n in entries)
+    constant = len(lanes) == MOST and all(alike.op[k] == ca.OP_CONST for k in lanes)
+    return lanes if constant else ()
 
 
 class Plan:

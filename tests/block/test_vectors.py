@@ -169,3 +169,11 @@ def test_what_is_handed_on_is_copied_by_fours_and_read_by_itself():
     )
     for name in lines[product].partition("=")[2].strip("; ").split("*"):
         assert any(f"Vector4 {name}=" in line for line in lines[:product])
+
+
+def test_constants_that_stand_together_are_stored_by_fours():
+    x = ca.SX.sym("x", 2)
+    function = ca.Function(
+        "constant", [x], [ca.densify(ca.vertcat(x[0] * x[1], ca.SX(9, 1), 2, x))]
+    )
+    assert vectors(function).count("STORE4(o0+") == 2
