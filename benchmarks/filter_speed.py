@@ -40,6 +40,7 @@ def main(samples: int = SAMPLES, hours: int = FOUR_HOURS) -> None:
     ways = {
         "propagate": (rows, settings(block, update=False), "0.9"),
         "propagate, gravity update": (rows, settings(block, update=True), "1.4"),
+        "the same, scale factors": (rows, settings(block, update=True, scale_std=0.02), None),
         "at rest": (at_rest(rows), block.start, None),
         "with magnetometer": (with_magnetometer(rows), settings(block, update=True), None),
     }
@@ -90,9 +91,9 @@ def with_magnetometer(rows: np.ndarray) -> np.ndarray:
     return out
 
 
-def settings(block, update: bool) -> np.ndarray:
+def settings(block, update: bool, scale_std: float = 0.0) -> np.ndarray:
     """Parameters with a gravity update at each step, or at none: by tolerances that all pass, or
-    that none does.
+    that none does; and with a gyro that is calibrated, or whose scale factors are off.
 
     The bias is known well enough for the attitude not to be lost within the log, which would be
     bounded at each step.
@@ -105,6 +106,7 @@ def settings(block, update: bool) -> np.ndarray:
     # A tilt that is not known has no velocity for a measurement of gravity.
     p[[at[f"std0[{i}]"] for i in (1, 2, 3)]] = 0.01 if update else 0.15
     p[[at[f"std0[{i}]"] for i in (4, 5, 6)]] = 1e-4
+    p[at["scale_std"]] = scale_std
     return p
 
 

@@ -1,5 +1,6 @@
 """The fast filter makes the estimates of the filter of 13 sigma points."""
 
+import casadi as ca
 import numpy as np
 import pytest
 from attitude_cases import (
@@ -17,7 +18,11 @@ from attitude_cases import (
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import attitude_ukf
+from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.layout import Layout
+from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, is_awake
 from pyimu.attitude.filter.sigma_point_filter import sigma_point_filter
+from pyimu.attitude.filter.stillness import SLOW
 
 FILTERS = (attitude_ukf, sigma_point_filter)
 
@@ -81,6 +86,38 @@ def test_fast_filter_is_the_other_where_axes_and_triads_are_stuck():
     found = np.flatnonzero(status & 4)
     expected = [(1520, 1800), (2520, 2700), (3220, 3400), (4050, 4100), (4550, 4600)]
     np.testing.assert_array_equal(found, np.concatenate([np.arange(*e) for e in expected]))
+
+
+def test_fast_filter_of_a_calibrated_gyro_is_that_which_knows_of_scale_factors():
+    """Its own functions, in motion and at rest, give the bits of those that carry along what scale
+    factors have made, where that is nothing; these run where the state says that there was some.
+    """
+    gyro, accel, *_ = eventful_drive(6000)
+    u, fast = inputs(6000, gyro=gyro, accel=accel), attitude_ukf(part())
+    p = parameters(fast, std0=np.full(6, 0.01), scale_std=0.0, axes_std=0.0)
+    state = fast.initial(fast.start_inputs, p)[0].full().ravel()
+    scales = Layout(Compensation(part())).rings - 5
+    said = state.copy()
+    said[scales] = 1
+    (y, after), (want, other) = (fast.run(u, p=p, state=s) for s in (state, said))
+    np.testing.assert_array_equal(y, want)
+    assert (after[scales], other[scales]) == (0, 1)
+    assert output(fast, y, "at_rest").any() and not output(fast, y, "at_rest").all()
+
+
+def test_a_body_that_may_show_that_it_sways_is_asked_whether_it_does():
+    """It may after 3 s, however long a rest takes."""
+    layout = Layout(Compensation(part()))
+    symbols = layout.symbols(ca.SX, ARGUMENTS)
+    at = Instant.of(layout, symbols)
+    span = at.memory.stillness.span
+    still, p = ca.SX.sym("still"), parameters(attitude_ukf(part()), rest_time=10.0)
+    given = [ca.substitute(is_awake(at), span, still)]
+    awake = ca.Function("awake", [still, *symbols], given)
+    others = [np.zeros(s.numel()) for s in symbols]
+    others[3:] = p, H
+    found = [float(awake(s, *others)) for s in (SLOW - 3 * H, SLOW - H)]
+    assert found == [1, 0]
 
 
 def test_fast_product_of_turns_is_the_drive_made_one_by_one():

@@ -163,7 +163,7 @@ def inclination(
     pushed = memory.motion.drift * reciprocal(at["motion_time"] + h) ** 2
     pushed = ca.fmax(pushed, long.variance)
     contradicts = plausible * _contradicts(measured[0], mean, pushed, x, white, settings)
-    motion = Bounded(variance, slow)
+    motion = replace(motion, variance=variance, slow=slow)
     given = _measurement(measured, size, motion, plausible, contradicts, settings, h)
     # A turn on wheels makes the force larger, but not its part along the vertical.
     up = vertical(x)
@@ -429,4 +429,4 @@ def scaled_tilt(x: Estimate, up):
 
 def vertical(x: Estimate):
     """The upward direction (3,) in body axes."""
-    return quaternion.rotate(quaternion.conjugate(x.q), ca.vertcat(0, 0, 1))
+    return quaternion.to_matrix(x.q)[2, :].T

@@ -124,6 +124,8 @@ class State:
             calm=ca.SX(0),
             turning=ca.SX(0),
             known=ca.SX(0),
+            by_scale=ca.SX.zeros(3),
+            scales=ca.SX(0),
             vertical_noise=ca.SX(0),
             place=ca.SX.zeros(2),
             field=ca.SX(0),

@@ -52,7 +52,10 @@ class GravityMeasurement:
         return cls(*ca.vertsplit(column, ends))
 
 
-EVERY = 5
+CALIBRATED = 5
+"""More in ``Flags.which`` where the gyro's scale factors have no part in any error."""
+
+EVERY = 8
 """Of ``Flags.which``: any of the updates."""
 
 FLAGS = 19
@@ -64,8 +67,9 @@ class Flags:
     """What the prediction says to the updates.
 
     ``which`` updates are needed, 0: none, 1: the velocity's, and with it 2: a zero rate's, 3: the
-    magnetic field's, 4: both; ``EVERY``: any. Whether ``gravity`` corrects, whether the
-    ``velocity`` does, whether the body is ``quasi_static``, whether its attitude may be ``lost``,
+    magnetic field's, 4: both; 5 to 7: as 0 to 2, ``CALIBRATED``; ``EVERY``: any. Whether
+    ``gravity`` corrects, whether the ``velocity`` does, whether the body is ``quasi_static``,
+    whether its attitude may be ``lost``,
     whether a ``heading`` and a zero rate (``stationary`` by its input, ``resting`` as found)
     correct, whether there is ``doubt`` of the rest that was found, the variance (rad/s)^2 that
     ``sway`` then adds to that of a sample, whether an input was ``missing``, whether a magnetometer

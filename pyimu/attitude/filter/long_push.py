@@ -70,5 +70,6 @@ def followed(before: LongPush, level, own, across, time, goes_on, used, h) -> Lo
     force = goes_on * (before.force + used * h / span * (level - before.force))
     bounded = EXCEEDS * (own + across / span**2) + LEAST**2
     found = ca.fmax(ca.sumsqr(force) / 2 - bounded, 0)
-    gain = h * reciprocal(ca.if_else(found > before.variance, RISE, FALL) * time + h)
+    rises, falls = (h * reciprocal(t * time + h) for t in (RISE, FALL))
+    gain = ca.if_else(found > before.variance, rises, falls)
     return LongPush(force, before.variance + used * gain * (found - before.variance))

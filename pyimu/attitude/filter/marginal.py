@@ -148,19 +148,18 @@ def factors(matrix, columns: int):
     The pivots D need no root (Golub and Van Loan 2013, section 4.1.2).
     """
     size, pivots, lower = matrix.shape[0], [], []
+    whole: list[list] = []  # the columns of L D, which are known a division sooner than those of L
+
+    def left(i: int, j: int):
+        return matrix[i, j] - sum((lower[k][i] * whole[k][j] for k in range(j)), 0)
+
     for j in range(columns):
         # A pivot below zero is one of rounding: its magnitude serves as well, and needs no choice.
-        pivot = (
-            ca.fabs(matrix[j, j] - sum((lower[k][j] ** 2 * pivots[k] for k in range(j)), 0)) + FLOOR
-        )
-        inverse = reciprocal(pivot)
-        rest = [
-            (matrix[i, j] - sum((lower[k][i] * (lower[k][j] * pivots[k]) for k in range(j)), 0))
-            * inverse
-            for i in range(j + 1, size)
-        ]
+        pivot = ca.fabs(left(j, j)) + FLOOR
+        inverse, rest = reciprocal(pivot), [left(i, j) for i in range(j + 1, size)]
         pivots.append(pivot)
-        lower.append(ca.vertcat(*[0] * j, 1, *rest))
+        whole.append([*[0] * j, pivot, *rest])
+        lower.append(ca.vertcat(*[0] * j, 1, *(v * inverse for v in rest)))
     return pivots, lower
 
 

@@ -34,6 +34,9 @@ covariance (21), velocity (3), its covariance with them (18) and its own upper t
 the gyro's scale factors make of all errors (27), and the sum in rad of all corrections of yaw by
 headings."""
 
+SCALED = slice(55, 82)
+"""Of these numbers what the gyro's scale factors make of the errors."""
+
 FADING = slice(0, ESTIMATE - 1)
 """Of these numbers those that may fade on a body that stands, all but that sum."""
 
@@ -67,6 +70,8 @@ class Memory:
     ``sensors`` is the compensation's memory, ``speed_for`` how many s ago there was a speed,
     ``calm`` that of ``stillness.calmer``, ``turning`` (rad/s)^2 that of ``turning.followed``,
     ``known`` (rad/s)^2 the variance of the bias about the vertical by all but rests that may sway.
+    ``by_scale`` (3,) rad^2/s is the noise of the attitude that ``prediction`` makes of the gyro's
+    scale factors, ``scales`` 0 or 1 whether these have had a part in any error.
     ``vertical_noise`` is the variance in rad^2 that was added about the vertical since the start.
     ``place`` (2,) is where the newest entry stands in the rings of past yaws and past
     ``vertical_noise``; ``field`` 0 or 1, whether a magnetometer has been seen. The rings and the
@@ -89,6 +94,8 @@ class Memory:
     calm: ca.SX
     turning: ca.SX
     known: ca.SX
+    by_scale: ca.SX
+    scales: ca.SX
     vertical_noise: ca.SX
     place: ca.SX
     field: ca.SX
@@ -107,13 +114,13 @@ class Memory:
         both = ca.reshape(column[31:49], N, 3)
         turning, moving = unpack(column[7:28], N), unpack(column[49:55], 3)
         covariance = ca.blockcat([[turning, both], [both.T, moving]])
-        scaled = ca.reshape(column[55:82], WHOLE, AXES)
+        scaled = ca.reshape(column[SCALED], WHOLE, AXES)
         return Estimate(column[:4], column[4:7], column[28:31], covariance, scaled)
 
     @staticmethod
     def attitude_of(column) -> Estimate:
         """The same without the velocity."""
-        scaled = ca.reshape(column[55:82], WHOLE, AXES)
+        scaled = ca.reshape(column[SCALED], WHOLE, AXES)
         return Estimate(column[:4], column[4:7], ca.SX(0, 1), unpack(column[7:28], N), scaled)
 
     def pack_memory(self, without_faded: bool = True) -> ca.SX:
@@ -140,6 +147,8 @@ class Memory:
                 self.calm,
                 self.turning,
                 self.known,
+                kept(self.by_scale),
+                self.scales,
                 self.vertical_noise,
                 self.place,
                 self.field,
@@ -162,7 +171,7 @@ class Memory:
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
-    own = held, 3, 8, len(compensation.start), 1, 1, 1, 1, 1, 2, 1
+    own = held, 3, 8, len(compensation.start), 1, 1, 1, 1, 3, 1, 1, 2, 1
     return 1, 1, 1, 1, 1, 3, 1, 1, *MOTION, *STILLNESS, 6, 6, *own
 
 
@@ -188,6 +197,8 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         calm=ca.SX(1),
         turning=ca.SX(0),
         known=ca.SX(0),
+        by_scale=ca.SX.zeros(3),
+        scales=ca.SX(0),
         vertical_noise=ca.SX(0),
         place=ca.vertcat(late_heading.SLOTS - 1, late_heading.NEVER),
         field=ca.SX(0),

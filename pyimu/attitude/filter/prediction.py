@@ -20,7 +20,7 @@ from pyimu.attitude.filter.gravity_update import (
     vertical,
     white_variance,
 )
-from pyimu.attitude.filter.layout import EVERY, Flags, Layout
+from pyimu.attitude.filter.layout import CALIBRATED, EVERY, Flags, Layout
 from pyimu.attitude.filter.long_push import LongPush
 from pyimu.attitude.filter.memory import ESTIMATE, FADING, HOLD, REPORTED, Memory
 from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
@@ -47,9 +47,15 @@ from pyimu.attitude.filter.stillness import (
 from pyimu.attitude.filter.stillness import followed as still_followed
 from pyimu.attitude.filter.stillness import kept as still_kept
 from pyimu.attitude.filter.timing import clock_error
-from pyimu.attitude.filter.unscented import LARGEST_STD, LARGEST_TILT_STD, Estimate
+from pyimu.attitude.filter.unscented import (
+    AXES,
+    LARGEST_STD,
+    LARGEST_TILT_STD,
+    WHOLE,
+    Estimate,
+)
 from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_K, LEAST_N, MAG
-from pyimu.attitude.filter.velocity import followed, shown_of_scale
+from pyimu.attitude.filter.velocity import followed
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal
 from pyimu.symbolic.missing import faded
@@ -75,10 +81,13 @@ of ``benchmarks/attitude_honesty.py``."""
 
 SCALE_TIME = 50.0
 """s; in which the tilt that the gyro's scale factors may have made becomes as unsure to the gains
-as it is, while that shows (``velocity.shown_of_scale``): they know nothing of the scale factors,
+as it is, while that shows (``velocity.Bounded``): they know nothing of the scale factors,
 which turn the tilt slowly and for long where the joints of an arm swing to and fro, and gravity may
 correct that. Chosen with ten arms of seed 95 whose sensors are ``bodies.AS_BOUGHT``
 (``benchmarks/attitude_honesty.py``)."""
+
+SCALES = ("scale_std", "axes_std")
+"""Settings of errors that ``Estimate.scaled`` has."""
 
 ARGUMENTS = "estimate memory u p h"
 """Of a prediction, by their names in ``Layout``."""
@@ -89,8 +98,9 @@ class Instant:
     """What there is when a sample comes.
 
     The ``estimate`` as a column, the memory, the settings, the inputs ``u``, and the period ``h``
-    in s by the gyro's clock as the part knows it. ``sleeps`` says whether the body may be at rest;
-    where it cannot, that is known beforehand and costs nothing in the generated code.
+    in s by the gyro's clock as the part knows it. ``sleeps`` says whether the body may be at rest,
+    ``scales`` whether the gyro's scale factors have a part in any error; where that is not so, it
+    is known beforehand and costs nothing in the generated code.
     """
 
     estimate: ca.SX
@@ -99,6 +109,7 @@ class Instant:
     u: ca.SX
     h: ca.SX
     sleeps: bool = True
+    scales: bool = True
 
     @classmethod
     def of(cls, layout: Layout, symbols: list[ca.SX]) -> Instant:
@@ -117,10 +128,22 @@ class Instant:
         still = replace(self.memory.stillness, rests=ca.SX(0))
         return replace(self, u=u, memory=replace(self.memory, stillness=still), sleeps=False)
 
+    def calibrated(self) -> Instant:
+        """The same where ``is_calibrated`` holds, with the numbers that are then known."""
+        kept, scalar = self.memory, self.settings.scalar
+        x = replace(kept.estimate, scaled=ca.SX(WHOLE, AXES))
+        kept = replace(kept, estimate=x, by_scale=ca.SX.zeros(3), scales=ca.SX(0))
+        settings = replace(self.settings, scalar=scalar | {n: ca.SX(0) for n in SCALES})
+        return replace(self, memory=kept, settings=settings, scales=False)
+
     @property
     def stationary(self):
         """Whether the body is called stationary, 0 or 1."""
         return self.u[STATIONARY] > 0.5
+
+    def driven(self, speed_for):
+        """Whether the body is driven, 0 or 1, of which a speed was given ``speed_for`` s ago."""
+        return speed_for < HOLD if self.sleeps else ca.SX(0)
 
     @property
     def earth(self):
@@ -130,16 +153,26 @@ class Instant:
 
 
 def is_awake(at: Instant):
-    """Whether the body is in no rest, and cannot be found in one with this sample; whether there
-    is nothing beside samples of the sensors.
+    """Whether the body is in no rest, and cannot be found in one, nor to sway, with this sample;
+    whether there is nothing beside samples of the sensors.
 
     That is so of nearly every sample of a body in motion.
     """
     before = at.memory.stillness
-    soon = before.span + 2 * at.h >= at.settings.scalar["rest_time"]
+    soon = before.span + 2 * at.h >= ca.fmin(at.settings.scalar["rest_time"], SLOW)
     # What is asked for may be NaN, which asks for nothing.
     asked = sum(at.u[i] > 0.5 for i in ASKED)
     return (soon + passes(before.span, before.span + at.h) + ca.fabs(before.rests) + asked) <= 0
+
+
+def is_calibrated(at: Instant):
+    """Whether the gyro's scale factors have no part in any error, before and after the sample."""
+    return at.memory.scales + _scales(at) <= 0
+
+
+def _scales(at: Instant):
+    """Whether the settings give the gyro's scale factors and axes a part in the errors, 0 or 1."""
+    return sum(at.settings.scalar[n] for n in SCALES) > 0
 
 
 @dataclass(frozen=True)
@@ -185,7 +218,7 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     tolerance = scalar["rest_rate_tolerance"], scalar["rest_force_tolerance"]
     noise = settings.gyro.white**2 * reciprocal(at.h), white_variance(settings, at.h)
     alike = is_still(before, sample.rate, sample.force, tolerance, noise, at.h)
-    drives = (at.memory.speed_for < HOLD) * (ca.sumsqr(x.velocity) > DRIVES**2)
+    drives = at.driven(at.memory.speed_for) * (ca.sumsqr(x.velocity) > DRIVES**2)
     alike = where(sample.force_valid, alike) * (1 - drives)
     if sample.gyro_lost is not False:
         alike = alike * (1 - ca.mmax(sample.gyro_lost))
@@ -235,6 +268,8 @@ def _hidden_turn(at: Instant, still: Stillness, x: Estimate):
     before, up = at.memory.stillness, vertical(x)
     own = ca.dot(up, x.covariance[3:6, 3:6] @ up)
     noise = _density(at.settings)
+    if not at.sleeps:
+        return ca.if_else(before.span > 0, at.memory.known, own), ca.SX.zeros(3)
     anew = 1 - (before.span > 0) * (1 - stands(before, noise))
     known = ca.if_else(anew, own, at.memory.known)
     return known, turns_unseen(before, still, noise, known, own) * up**2
@@ -289,10 +324,9 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
             at.memory.lost_for, sample.lost_for
         )
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
-    x, before = at.memory.estimate, at.memory.turning
-    shown = shown_of_scale(at.memory.motion, x, settings.scalar["motion_time"], h)
-    turned = turned + ca.sum2(scaled_tilt(x, vertical(x)) ** 2) * (shown * h / SCALE_TIME)
-    in_motion = turning.bias_variance(before, _turning(at, sample), settings.scalar["motion_bias"])
+    turned = turned + at.memory.by_scale * h
+    before, after = at.memory.turning, _turning(at, sample)
+    in_motion = turning.bias_variance(before, after, settings.scalar["motion_bias"])
     return (
         least + (1 - moving) * at.stationary * still + moving * turned + rest.unseen,
         moving * ca.diag(noise[:3, 3:]),
@@ -324,13 +358,14 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     usable *= at.u[SPEED_VARIANCE] >= 0
     speed = (at.u[SPEED_VALID] > 0.5) * usable * known
     speed_for = ca.if_else(speed, 0, kept.speed_for + at.h)
-    driven = speed_for < HOLD
+    driven = at.driven(speed_for)
     goes_on = known * (1 - rest.resting) * (1 - driven)
     used = where(sample.force_valid, goes_on)
     white = ca.sum1(white_variance(at.settings, at.h)) * (at.h / 3)
     bounds = Bounds(scalar["motion_share"], white, scalar["motion_time"])
     may = (1 - rest.surely) * (1 - at.stationary) * (1 - driven)
-    long = _pushed_for_long(at, sample, x, may)
+    tilted = ca.sum2(scaled_tilt(x, vertical(x)) ** 2)
+    long = _pushed_for_long(at, sample, x, tilted, may)
     moves = scalar["accel_std"] > 0
     motion, bounded = followed(kept.motion, x, used, goes_on, moves, bounds, long, at.h)
     rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
@@ -359,6 +394,8 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         rest.calm,
         _turning(at, sample),
         rest.known,
+        tilted * (bounded.by_scale / SCALE_TIME),
+        ca.fmax(kept.scales, _scales(at)),
         vertical_noise,
         ca.vertcat(*place),
         field,
@@ -367,7 +404,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     if sample.faded:
         working[FADING] = faded(working[FADING])
     flags = _flags(at, sample, rest, x, force, field, vertical_noise)
-    was = kept.speed_for < HOLD
+    was = at.driven(kept.speed_for)
     flags = flags.with_speed(speed, driven, was + driven - 2 * was * driven)
     return [
         working,
@@ -378,15 +415,16 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     ]
 
 
-def _pushed_for_long(at: Instant, sample: Sample, x: Estimate, goes_on) -> LongPush:
-    """The pushes that last, by the force of a sample; ``goes_on`` 0 or 1 says whether there may be
-    any.
+def _pushed_for_long(at: Instant, sample: Sample, x: Estimate, tilted, goes_on) -> LongPush:
+    """The pushes that last, by the force of a sample.
+
+    ``tilted`` (3,) rad^2 is the variance of the tilt by the gyro's scale factors; ``goes_on`` 0 or
+    1 says whether there may be any.
     """
     scalar, motion = at.settings.scalar, at.memory.motion
     moves = goes_on * (scalar["accel_std"] > 0)
     level = quaternion.to_matrix(x.q)[:2, :] @ sample.force
-    up = vertical(x)
-    tilt = tilt_variance(x.covariance, up) + ca.sumsqr(scaled_tilt(x, up)) / 2
+    tilt = tilt_variance(x.covariance, vertical(x)) + ca.sum1(tilted) / 2
     own = scalar["gravity"] ** 2 * tilt
     used = where(sample.force_valid, moves)
     time = scalar["motion_time"]
@@ -405,8 +443,11 @@ def _flags(
     off = force.size.off(at.settings.scalar["gravity"])
     calibrated = off <= at.settings.scalar["gravity_tolerance"]
     uncalibrated = 1 - calibrated * (1 - force.size.in_doubt())
+    which = usual * (1 + at_rest + 2 * field) + (1 - usual) * asked * EVERY
+    if not at.scales:
+        which = which + (which <= 2) * CALIBRATED
     return Flags(
-        which=usual * (1 + at_rest + 2 * field) + (1 - usual) * asked * EVERY,
+        which=which,
         gravity=force.usable,
         velocity=force.velocity,
         quasi_static=force.quasi_static,
@@ -433,11 +474,5 @@ def _about_the_vertical(x: Estimate, added):
 
     It is at most what an angle can have.
     """
-    q = x.q
-    up = ca.vertcat(
-        2 * (q[1] * q[3] - q[0] * q[2]),
-        2 * (q[2] * q[3] + q[0] * q[1]),
-        1 - 2 * (q[1] * q[1] + q[2] * q[2]),
-    )
-    variance, most = ca.dot(up * up, added), LARGEST_STD**2
+    variance, most = ca.dot(vertical(x) ** 2, added), LARGEST_STD**2
     return ca.if_else(variance < most, variance, most)

@@ -86,7 +86,7 @@ def read(
         (ca.sumsqr(raw) <= ABSURD**2)
         * (ca.sumsqr(rate) <= _fastest(h) ** 2)
         * (ca.sumsqr(force) <= ABSURD**2)
-        * (ca.dot(_beyond(same_for, settings), _stuck_times(settings)) <= 0)
+        * (1 - _may_be_stuck(memory, settings, h))
         * (1 - _before_the_first(raw, memory))
         * (memory.speed_for >= HOLD)
         * (ca.sum1(memory.place) > 0)
@@ -223,6 +223,16 @@ def _stuck_times(settings: Settings):
 def _beyond(same_for, settings: Settings):
     """Which (8,) have repeated their samples for the settings' time, or have none."""
     return same_for >= _stuck_times(settings)
+
+
+def _may_be_stuck(memory: Memory, settings: Settings, h):
+    """Whether a triad or an axis is stuck, 0 or 1, if this sample repeats the last one.
+
+    What repeats is looked at again where that is so.
+    """
+    times = _stuck_times(settings)
+    least = ca.if_else(times > 0, times - h, ca.inf)
+    return ca.sum1(memory.same_for >= least) > 0
 
 
 def _stuck(same_for, settings: Settings):

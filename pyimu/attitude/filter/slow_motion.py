@@ -107,10 +107,15 @@ def followed(before: SlowMotion, level, variance, drift, own, bounds: Bounds, us
     what it has beside. ``used`` 0 or 1 says whether the sample counts.
     """
     whole = 2 * bounds.time * variance
-    time = ca.fmin(
-        ca.fmax(SLOWNESS * before.used * reciprocal(own + TINY), 2 * h), LONGEST * bounds.time
-    )
-    gain, slow_gain = h * reciprocal(time + h), used * h * reciprocal(SPAN * time + h)
+    follows, least, most = SLOWNESS * before.used, 2 * h, LONGEST * bounds.time
+    time = ca.fmin(ca.fmax(follows * reciprocal(own + TINY), least), most)
+
+    def gain_over(times):
+        """h / (``times`` time + h), without waiting for the quotient that the time is."""
+        within = h * (own + TINY) * reciprocal(times * follows + h * (own + TINY))
+        return ca.fmin(ca.fmax(within, h / (times * most + h)), h / (times * least + h))
+
+    gain, slow_gain = gain_over(1.0), used * gain_over(SPAN)
     first = before.low[:2] + used * gain * (level - before.low[:2])
     second = before.low[2:] + used * gain * (first - before.low[2:])
     found = 2 * time * ca.sumsqr(first - second) - own * h

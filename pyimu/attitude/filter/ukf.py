@@ -36,13 +36,14 @@ from pyimu.attitude.filter.gravity_update import (
     scaled_in_gravity,
 )
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
-from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
+from pyimu.attitude.filter.memory import ESTIMATE, SCALED, WORKING, Memory
 from pyimu.attitude.filter.passed import PASSED, Transition, passed
 from pyimu.attitude.filter.prediction import (
     ARGUMENTS,
     Instant,
     added_noise,
     is_awake,
+    is_calibrated,
     predicted,
     rest_of,
 )
@@ -128,21 +129,25 @@ def _predict(layout: Layout, recorded: bool = False) -> tuple[ca.Function, ca.Fu
     Where it is ``recorded``, the transition of the error follows.
 
     An ordinary sample is taken as it was read; any other is looked at number by number. Of an
-    ordinary one of a body that is awake most questions of rest need not be asked.
+    ordinary one of a body that is awake most questions of rest need not be asked, and where its
+    gyro is calibrated, none of scale factors.
     """
     symbols = layout.symbols(ca.SX, ARGUMENTS)
     at = Instant.of(layout, symbols)
     given = (layout.compensation, at.memory, at.u, at.settings, at.h)
     sample, is_ordinary = read(*given)
     # What this reads is read again by the row: handed over, a processor would wait for it.
-    which = plain_function("which_row", symbols, [is_ordinary * (1 + is_awake(at))], OPTIONS)
+    chosen = is_ordinary * (1 + is_awake(at) + 2 * is_calibrated(at))
+    which = plain_function("which_row", symbols, [chosen], OPTIONS)
     rows = [
         _row("other_row", at, look_closely(*given), symbols, recorded),
         _row("ordinary_row", at, sample, symbols, recorded),
         _row("awake_row", at.awake(), sample, symbols, recorded),
+        _row("calibrated_row", at.calibrated(), sample, symbols, recorded),
+        _row("awake_calibrated_row", at.awake().calibrated(), sample, symbols, recorded),
     ]
     constants, (which, *rows) = taken_apart([which, *rows], [3, 4])
-    row = ca.Function.conditional("row", rows[:2], rows[2])
+    row = ca.Function.conditional("row", rows[:-1], rows[-1])
     given = [*layout.symbols(ca.MX, "estimate memory u"), ca.MX.sym("c", constants.numel_out(0))]
     outputs = row(which(*given), *given)
     return constants, plain_function("predict", given, list(outputs), {"always_inline": True})
@@ -175,8 +180,9 @@ def _updates(layout: Layout) -> ca.Function:
     There is none, the velocity's alone or with those of a zero rate and of the field, or whichever
     are needed.
 
-    The two usual cases are one function each, because every call from one function to another
-    copies the estimate, and so does an update that is passed by.
+    The usual cases are one function each, because every call from one function to another copies
+    the estimate, and so does an update that is passed by; where the gyro is calibrated, without
+    what scale factors make.
     """
     names = "x s u p h rate gravity flags"
     finished, velocity = finish(), by_velocity(marginal.correct)
@@ -202,23 +208,32 @@ def _updates(layout: Layout) -> ca.Function:
             x, kept = both[:WORKING], both[WORKING:]
         return plain_function(name, symbols, [*finished(x, flags), kept])
 
-    x, s, _, _, _, _, gravity, flags = plain = layout.symbols(ca.SX, names)
-    after = velocity.call([x, gravity], True, False)[0]
-    none, usual = (
-        plain_function(
-            name,
-            plain,
-            [*finished.call([value, flags], True, False), s[layout.field :]],
-            OPTIONS,
-        )
-        for name, value in (("no_update", x), ("usual_update", after))
-    )
+    x, s, _, p, h, rate, gravity, flags = plain = layout.symbols(ca.SX, names)
+
+    def usual(name: str, x, updated: bool, at_rest: bool = False) -> ca.Function:
+        """With the velocity's update, or none; and with that of a zero rate."""
+        if updated:
+            x = velocity.call([x, gravity], True, False)[0]
+        if at_rest:
+            x = zero_rate.call([x, rate, p, h, Flags.unpack(flags).rest], True, False)[0]
+        out = [*finished.call([x, flags], True, False), s[layout.field :]]
+        return plain_function(name, plain, out, OPTIONS)
+
+    without_more = [usual("no_update", x, False), usual("usual_update", x, True)]
+    calibrated = ca.SX(x)
+    calibrated[SCALED] = 0
+    of_calibrated = [
+        usual("no_update_calibrated", calibrated, False),
+        usual("usual_update_calibrated", calibrated, True),
+        usual("update_at_rest_calibrated", calibrated, True, True),
+    ]
     with_more = [
         usual_and("update_at_rest", True, False),
         usual_and("update_in_field", False, True),
         usual_and("update_at_rest_in_field", True, True),
     ]
-    return ca.Function.conditional("updates", [none, usual, *with_more], every())
+    chosen = [*without_more, *with_more, *of_calibrated]
+    return ca.Function.conditional("updates", chosen, every())
 
 
 def _by_gravity() -> ca.Function:

@@ -149,11 +149,13 @@ class Bounded:
     """The velocity of a body that stays in its place, as it is measured to be zero.
 
     ``variance`` (2,) (m/s)^2 across and along the vertical; ``slow`` is its density at low
-    frequency over that of the correlation time of the settings.
+    frequency over that of the correlation time of the settings. ``by_scale`` is which share of the
+    tilt that the gyro's scale factors may have made shows in the velocity, 0 to 1.
     """
 
     variance: ca.SX
     slow: ca.SX
+    by_scale: ca.SX
 
 
 def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate:
@@ -269,7 +271,8 @@ def followed(
     white (section III there): their mean over ``SLOW`` times T has half their density over that,
     the density 2 T s^2 of the velocity and P h of the filter's own variance. What it has beyond
     ``DRIFTS`` times that, and times what the gyro's scale factors may make of it, and ``SLIGHT``,
-    is a walk: accelerations that last. ``used`` 0 or 1 says whether the sample counts, ``moves``
+    is a walk: accelerations that last. What a tilt by these scale factors makes of it is compared
+    with all of it but the bounded one's. ``used`` 0 or 1 says whether the sample counts, ``moves``
     whether the body moves at all.
     """
     v, axes, time = x.velocity, quaternion.to_matrix(x.q), bounds.time
@@ -282,7 +285,7 @@ def followed(
     known = ca.fmin(motion.known + used * h * reciprocal(time + h), WINDOW)
 
     def mean(before, found, fall, rise):
-        gain = h / (ca.if_else(found > before, rise, fall) * time + h)
+        gain = ca.if_else(found > before, h / (rise * time + h), h / (fall * time + h))
         return before + used * gain * (found - before)
 
     def grown(before, excess):
@@ -293,27 +296,15 @@ def followed(
     across, seen_across = grown(motion.across, excess)
     along, seen_along = grown(motion.along, above - own_along)
     slow = goes_on * (motion.slow + used * h / (SLOW * time + h) * (level - motion.slow))
-    left = _beyond_bounded(slow, across, own_across, time, h) - DRIFTS * _by_scale(x, axes)
+    beyond, scaled = _beyond_bounded(slow, across, own_across, time, h), _by_scale(x, axes)
+    left = beyond - DRIFTS * scaled
     drift = moves * mean(motion.drift, ca.fmax(left, 0), DRIFT_WINDOW, DRIFT_RISE)
     slowly, slow_share = slow_motion.followed(
         motion.slowly, level, seen_across, drift, own_across, bounds, used, h
     )
     after = Motion(across, along, slow, drift, known, slowly, long)
-    return after, Bounded(ca.vertcat(seen_across, seen_along), slow_share)
-
-
-def shown_of_scale(motion: Motion, x: Estimate, time, h):
-    """Which share of the tilt that the gyro's scale factors may have made shows, 0 to 1.
-
-    A tilt makes a slow velocity. What this has beyond that of a bounded one is compared with what
-    one standard deviation of the scale factors makes of it; ``motion`` and ``x`` are those after a
-    sample, ``time`` the correlation time.
-    """
-    axes, own = quaternion.to_matrix(x.q), x.covariance[6:, 6:]
-    up = axes[2, :].T
-    own_across = (ca.trace(own) - ca.dot(up, own @ up)) / 2
-    beyond = _beyond_bounded(motion.slow, motion.across, own_across, time, h)
-    return ca.fmin(ca.fmax(beyond, 0) * reciprocal(_by_scale(x, axes) + TINY), 1)
+    shown = ca.fmin(ca.fmax(beyond, 0) * reciprocal(scaled + TINY), 1)
+    return after, Bounded(ca.vertcat(seen_across, seen_along), slow_share, shown)
 
 
 def _beyond_bounded(slow, across, own_across, time, h):
