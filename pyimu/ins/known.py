@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyimu.attitude.columns import NOMINAL_SCALE_STD, informed, nominal_part
+from pyimu.attitude.columns import NOMINAL_SCALE_STD, informed, nominal_part, of_a_sensor
 from pyimu.attitude.rest import Rest
 from pyimu.model.catalogue import CATALOGUE, read_off
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.model.tolerance import Tolerance
 from pyimu.model.typical import magnitudes
+from pyimu.recording.quality.clipping import touched_level
 from pyimu.recording.recording import Recording
 
 STEPS = 20
@@ -35,10 +36,13 @@ def known_part(declared: Part | None, recording: Recording, rest: Rest) -> Part:
         own = Part(part.name, part.sample_rate)
     else:
         part, own = informed(declared, recording, rest), declared
-    gyro, accel = (
-        _with_true_limit(part.sensor(kind), own.sensor(kind), getattr(recording, kind))
-        for kind in ("gyro", "accel")
-    )
+    sensors = []
+    for kind in ("gyro", "accel"):
+        sensor, samples = part.sensor(kind), getattr(recording, kind)
+        if declared is None or of_a_sensor(declared):
+            sensor = _with_touched_limit(sensor, samples)
+        sensors.append(_with_true_limit(sensor, own.sensor(kind), samples))
+    gyro, accel = sensors
     return replace(part, gyro=gyro, accel=accel)
 
 
@@ -59,6 +63,16 @@ def unknown_tolerances() -> tuple[Tolerance, ...]:
         free = len(CATALOGUE[effect].parameters[key[2]].indices)
         found.append(Tolerance(key, (most,) * free, "uniform"))
     return tuple(found)
+
+
+def _with_touched_limit(sensor: Sensor, samples: np.ndarray) -> Sensor:
+    """The sensor with the limits of axes (n, 3) that touch one too seldom for a plateau."""
+    effect, parameter = read_off(CATALOGUE.values(), "ceiling")
+    limit = np.array(sensor.values.get(effect, {}).get(parameter, np.zeros(3)))
+    for axis, column in enumerate(samples.T):
+        seen = [abs(level) for level in touched_level(column) if level is not None]
+        limit[axis] = min([*seen, limit[axis] or np.inf]) if seen else limit[axis]
+    return sensor.with_values(effect, **{parameter: limit}) if limit.any() else sensor
 
 
 def _with_true_limit(sensor: Sensor, own: Sensor, samples: np.ndarray) -> Sensor:

@@ -12,7 +12,7 @@ from places import measured
 
 from pyimu.identification.fit.trial import bad_samples
 from pyimu.recording.log import read_recording
-from pyimu.recording.quality.clipping import clipped, clipping_level
+from pyimu.recording.quality.clipping import clipped, clipping_level, touched_level
 from pyimu.recording.quality.inspect import inspect
 from pyimu.recording.quality.resolution import quantization_step
 from pyimu.recording.quality.spikes import spikes
@@ -217,6 +217,34 @@ def test_clipping_is_found_with_its_level(sigma):
 
 def test_clipping_of_one_side():
     assert clipping_level(np.minimum(driven()[:, 0], 2.5))[0] is None
+
+
+@pytest.mark.parametrize("step", [0.0, 1e-3])
+def test_a_level_that_single_samples_touch(step):
+    """The six highest of 20,000, none beside another, and of a converter's: no plateau."""
+    values = np.random.default_rng(0).laplace(size=20_000)
+    level = np.sort(values)[-6] if not step else step * np.floor(np.sort(values)[-6] / step)
+    values = np.minimum(step * np.round(values / step) if step else values, level)
+    assert clipping_level(values) == (None, None)
+    assert touched_level(values) == (None, pytest.approx(level))
+
+
+@pytest.mark.parametrize("step", [0.0, 1e-4, 1e-3, 1e-2, 0.1])
+def test_extremes_of_a_free_sensor_are_no_level(step):
+    """Noise, turns that reverse smoothly or stand at their ends, samples that hold, and a motion
+    that repeats to the last digit: a side is taken for a level by chance once in 10,000."""
+    rng, n = np.random.default_rng(0), 5000
+    turn = 9.8 * np.sin(np.cumsum(rng.uniform(0, 0.1, n)))
+    for values in (
+        rng.standard_normal(n),
+        rng.laplace(size=n),
+        turn,
+        turn + 0.02 * rng.standard_normal(n),
+        np.where(np.arange(n) % 300 < 100, 2.0, 0.0) + 0.01 * rng.standard_normal(n),
+        np.repeat(rng.standard_normal(n // 4), 4),
+        np.tile(rng.standard_normal(n // 20), 20),
+    ):
+        assert touched_level(step * np.round(values / step) if step else values) == (None, None)
 
 
 def test_clipped_samples_are_not_called_stuck():

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.special import bdtrc
 
 from pyimu.errors import Finding
+from pyimu.recording.quality.resolution import resolution
 from pyimu.recording.quality.scatter import scatter
 
 PLATEAU = 0.01
@@ -26,6 +28,23 @@ LEAST_CLIPPED = 5
 """Fewer samples in a plateau are never called clipped."""
 
 
+BY_CHANCE = 1e-4
+"""Probability that a column whose largest values are no limit visits one as often."""
+
+DEPTHS = (0.5, 0.75, 0.9)
+"""Shares of the way from the extreme to the median in which other values are counted: few lie near
+the extreme of what is pushed seldom, and of many even the nearest tell."""
+
+LEAST_TOUCHES = 3
+"""Fewer visits of an extreme are never called a limit."""
+
+STEPS = 63
+"""Steps of a converter below an extreme: a smooth reversal visits them seven times as often."""
+
+ALL_UNSEEN = 3.0
+"""Of so many expected, none is seen once in twenty times (Poisson)."""
+
+
 def clipping_level(values: np.ndarray) -> tuple[float | None, float | None]:
     """(low, high): the levels at which ``values`` (n,) are clipped, None for a side that is not.
 
@@ -35,6 +54,48 @@ def clipping_level(values: np.ndarray) -> tuple[float | None, float | None]:
     """
     plateaus = [_plateau(values, sign) for sign in (-1, 1)]
     return tuple(None if not p.any() else float(np.median(values[p])) for p in plateaus)
+
+
+def touched_level(values: np.ndarray) -> tuple[float | None, float | None]:
+    """(low, high): the values at which ``values`` (n,) end that come too often for an extreme, None
+    for a side that has none.
+
+    A limit that single samples touch makes no plateau. But two extremes of a motion are the same to
+    the last digit as seldom as two other values are, and those are counted (``DEPTHS``). Samples
+    that hold a value are one visit. What was corrected by other axes after the clipping has no
+    equal values.
+    """
+    sides = (-1, 1)
+    return tuple(s * values[np.nanargmax(s * values)] if _ends(s * values) else None for s in sides)
+
+
+def _ends(values: np.ndarray) -> bool:
+    """Whether the largest of ``values`` (n,) is visited too often for an extreme."""
+    visits = values[np.isfinite(values) & np.append(True, values[1:] != values[:-1])]
+    if len(visits) < LEAST_CLIPPED:
+        return False
+    levels, counts = np.unique(visits, return_counts=True)
+    if counts[-1] < LEAST_TOUCHES:
+        return False
+    down = levels[-1] - levels
+    # Where a turn reverses smoothly its coarse extreme is visited often, and the steps below it
+    # are as well, by the root of how many they are.
+    near = (down > 0) & (down < (STEPS + 0.5) * resolution(visits))
+    if counts[-1] <= counts[near].sum():
+        return False
+    depth = down / max(levels[-1] - np.median(visits), np.finfo(float).tiny)
+    chances = [_by_chance(int(counts[-1]), counts[:-1][depth[:-1] < d]) for d in DEPTHS]
+    return len(DEPTHS) * min(chances) < BY_CHANCE
+
+
+def _by_chance(ties: int, others: np.ndarray) -> float:
+    """The probability of ``ties`` visits or more of an extreme, by the visits of each of the
+    ``others`` near it: two of them are equal as often as their pairs are, and of values that
+    become rarer towards the extreme those there are no more alike.
+    """
+    n = int(others.sum())
+    equal, pairs = (others * (others - 1) / 2).sum(), n * (n - 1) / 2
+    return float(bdtrc(ties - 2, n + ties - 1, min((equal + ALL_UNSEEN) / max(pairs, 1.0), 1.0)))
 
 
 def clipped(values: np.ndarray) -> np.ndarray:
