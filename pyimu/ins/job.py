@@ -19,7 +19,7 @@ from pyimu.ins.filter.ins_block import ins_of_log
 from pyimu.ins.filter.layout import Layout
 from pyimu.ins.filtered import Filtered, filtered
 from pyimu.ins.lasting import Lasting, lasting, too_small
-from pyimu.ins.measured import COURSE, Fixes
+from pyimu.ins.measured import COURSE, Fixes, measures_speed
 from pyimu.ins.smoothing import smoothed
 from pyimu.ins.track import Reference, Track
 from pyimu.model.part import Part
@@ -73,12 +73,6 @@ class Job:
         return Layout(self.part, self.nhc, self.live, **lasts)
 
     @property
-    def speeds(self) -> bool:
-        """Whether the recording has measured speeds."""
-        speed = self.recording.speed
-        return speed is not None and bool(np.isfinite(speed).any())
-
-    @property
     def late(self) -> float:
         """How many s a measured speed may be late: one that is counted from one to the next is that
         of the middle between them.
@@ -95,7 +89,7 @@ class Job:
         values = {"latitude": self.latitude, "gravity": self.gravity, "detect": float(self.live)}
         fixes = {} if self.fixes is None else self.fixes.settings
         lasts = {} if self.lasting is None else self.lasting.settings
-        wheels = {"speed_late_std": self.late} if self.speeds else {}
+        wheels = {"speed_late_std": self.late} if measures_speed(self.recording) else {}
         wheels |= {} if self.crabs is None else self.crabs.settings
         told = fixes | lasts | wheels | start.settings | dict(self.settings)
         return with_values(self.block, values | told)

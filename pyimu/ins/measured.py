@@ -83,6 +83,11 @@ class Told:
     velocity_age: float | None = None
 
 
+def measures_speed(recording: Recording) -> bool:
+    """Whether a recording has measured speeds."""
+    return recording.speed is not None and bool(np.isfinite(recording.speed).any())
+
+
 def fixes_of(
     recording: Recording,
     told: Told | None = None,

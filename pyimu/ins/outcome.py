@@ -84,6 +84,11 @@ class Outcome:
         return found
 
     @property
+    def declares_rests(self) -> bool:
+        """Whether the log's own column says where it rests."""
+        return self.zupt != "live" and self.recording.stationary is not None
+
+    @property
     def longest_leg(self) -> float:
         """s; the longest time without a rest."""
         return float(

@@ -20,7 +20,15 @@ from pyimu.ins.filtered import Filtered
 from pyimu.ins.integrated import integrated
 from pyimu.ins.job import Job, Start
 from pyimu.ins.known import known_part
-from pyimu.ins.measured import MEASURED, Fixes, Told, check_fixes, fixes_of, wrong_rows
+from pyimu.ins.measured import (
+    MEASURED,
+    Fixes,
+    Told,
+    check_fixes,
+    fixes_of,
+    measures_speed,
+    wrong_rows,
+)
 from pyimu.ins.result import NavigationResult
 from pyimu.ins.stances import standing
 from pyimu.ins.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
@@ -100,7 +108,7 @@ def run(
     job = _job(recording, declared, zupt, given, findings)
     measured = _measured(job, zupt, fixes, told, limits["top_speed"])
     job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
-    job = replace(job, wheels=nhc or job.speeds)
+    job = replace(job, wheels=nhc or measures_speed(recording))
     reference = reference_of(recording)
     found, start = job.started(heading0, reference)
     job = job.with_lasting(found, start, say).with_crabbing(start, say)

@@ -149,6 +149,11 @@ def quantity(value: object, si: str, digits: int = 3) -> str:
     return f"{number(float(in_unit(value, si, unit)), digits)} {pretty(unit)}".rstrip()
 
 
+def counted(count: int, noun: str) -> str:
+    """``1 stop``, ``2 stops``."""
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
+
+
 def si_quantity(value: object, si: str, digits: int = 3) -> str:
     """The same in SI."""
     return f"{number(None if value is None else float(value), digits)} {pretty(si)}".rstrip()

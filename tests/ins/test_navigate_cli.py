@@ -11,6 +11,7 @@ from pyarrow import parquet
 from pyimu import read_recording
 from pyimu.ins import run
 from pyimu.recording.recording import Recording
+from pyimu.report.numbers import quantity
 from pyimu.rover.trajectory import motion
 
 
@@ -151,6 +152,19 @@ def test_a_log_without_rest_says_so_first(square_log):
     assert "no rest in this log" in text.splitlines()[1]
     # a drive as steady as a rest by itself is none by the noise of its part
     assert "no rest at the start" in text and "at rest is" not in text
+
+
+def test_a_log_that_never_stops_says_first_what_its_end_is_worth(square_log):
+    """With a rest at the start, and with what else holds it."""
+    driven = square_log.slice(0, int(np.searchsorted(square_log.time, 11.0)))
+    found = run(driven, assumed(), method="filter")
+    std = np.linalg.norm(found.tracks["filter"].position_std[-1, :2])
+    first = found.report().splitlines()[1]
+    assert "no rest after that at the start" in first and "nothing to update with" in first
+    assert f"standard deviation has grown to {quantity(std, 'm')} at the end" in first
+    first = run(driven, assumed(), method="filter", nhc=True).report().splitlines()[1]
+    assert "what holds the position is the vehicle's constraint; the standard" in first
+    assert "has grown" not in run(driven, assumed(), method="strapdown").report()
 
 
 def test_a_wrong_scale_of_the_accelerometer_is_said(square_log):

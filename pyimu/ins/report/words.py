@@ -13,10 +13,9 @@ from pyimu.errors import Finding
 from pyimu.ins.filter.variables import STATUS_NAMES
 from pyimu.ins.measured import CONTRADICTED
 from pyimu.ins.outcome import Outcome
-from pyimu.ins.short_rests import SWUNG
-from pyimu.recording.rest import rests
+from pyimu.ins.report.held import held
 from pyimu.report.findings import in_line
-from pyimu.report.numbers import number, quantity
+from pyimu.report.numbers import counted, number, quantity
 
 TITLES = {
     "paper": "Wongwirat 2010, as printed",
@@ -28,16 +27,9 @@ TITLES = {
 MOSTLY = 0.5
 """Share of the samples of rests beyond which these are none, if they contradict the estimate."""
 
-LONG_REST = 3.0
-"""s; a rest by the log's own noise that is worth a word."""
-
 LASTS = 0.1
 """Share of the samples of a stop from which on it may be none: of one the first few contradict the
 estimate at most, and the others follow them."""
-
-LONG, OFTEN = 5.0, 0.8
-"""s without a rest are longer than any step; a leg swings in a good part of the time, so that this
-quantile of the rates is that of a swing."""
 
 BY_CHANCE = 1e-4
 """Probability that velocities are called too far off where the standard deviations are right."""
@@ -90,7 +82,7 @@ STEADY = (
 
 def notes(a: Outcome) -> list[str]:
     """What should be known first: where there is nothing to update with, and what was refused."""
-    out = [_rests(a)]
+    out = [held(a)]
     kinds = {f.kind: f for f in a.findings}
     out += [text[0].upper() + text[1:] for text in about_contradicted(a.findings)]
     if "no_rest" in kinds:
@@ -114,12 +106,12 @@ def notes(a: Outcome) -> list[str]:
         for said in _longest([f.detail for f in a.findings if f.kind == kind])
     ]
     out += [
-        f"{_counted(f.count, 'sample')} of {f.column} that no motion makes "
+        f"{counted(f.count, 'sample')} of {f.column} that no motion makes "
         f"{'was' if f.count == 1 else 'were'} left out, the first at {f.detail['first']:.6g} s"
         for f in a.findings
         if f.kind == "outliers"
     ]
-    out += list(_of_samples(kinds, _declared(a)))
+    out += list(_of_samples(kinds, a.declares_rests))
     if "coning" in kinds:
         detail = kinds["coning"].detail
         out.append(
@@ -157,16 +149,12 @@ def _constraint(f: Finding, lost: bool) -> str:
     )
 
 
-def _counted(count: int, noun: str) -> str:
-    return f"{count:,} {noun}{'' if count == 1 else 's'}"
-
-
 def _longest(stretches: list[dict[str, Any]]) -> Iterator[str]:
     """How many stretches there are, and the longest; nothing of none."""
     if stretches:
         longest = max(stretches, key=lambda d: d["seconds"])
         yield (
-            f"{_counted(len(stretches), 'time')}, the longest at {longest['first']:.6g} s for "
+            f"{counted(len(stretches), 'time')}, the longest at {longest['first']:.6g} s for "
             f"{quantity(longest['seconds'], 's')}"
         )
 
@@ -177,14 +165,9 @@ def _gaps(a: Outcome) -> Iterator[str]:
         longest, start = max(found)
         yield (
             f"No samples for up to {quantity(longest, 's')} (from {start:.6g} s; "
-            f"{_counted(len(found), 'gap')}): the standard deviations are wider by what a robot of "
+            f"{counted(len(found), 'gap')}): the standard deviations are wider by what a robot of "
             f"at most {a.settings['top_speed']:g} m/s may have done meanwhile (--top-speed)"
         )
-
-
-def _declared(a: Outcome) -> bool:
-    """Whether the log's own column says where it rests."""
-    return a.zupt != "live" and a.recording.stationary is not None
 
 
 def _of_samples(kinds: dict[str, Finding], declared: bool) -> Iterator[str]:
@@ -199,11 +182,11 @@ def _of_samples(kinds: dict[str, Finding], declared: bool) -> Iterator[str]:
     if (f := kinds.get("reference_jump")) is not None:
         yield (
             f"The reference jumps by {number(f.detail['largest'])} m at {f.detail['first']:.6g} s "
-            f"({_counted(f.count, 'time')}): the errors beside it are the reference's own"
+            f"({counted(f.count, 'time')}): the errors beside it are the reference's own"
         )
     if (f := kinds.get("rest_moves")) is not None:
         yield (
-            f"The reference moves during {_counted(f.count, 'rest')}, by up to "
+            f"The reference moves during {counted(f.count, 'rest')}, by up to "
             f"{number(f.detail['largest'])} m (the first at {f.detail['first']:.6g} s, "
             f"{quantity(f.detail['seconds'], 's')} in all): these are none"
             + (
@@ -226,54 +209,6 @@ def _of_samples(kinds: dict[str, Finding], declared: bool) -> Iterator[str]:
             f"{number(f.detail['after'])} m from the path, not {number(f.detail['before'])} m: is "
             "it in another frame than east-north-up, or the heading at the start another?"
         )
-
-
-def _rests(a: Outcome) -> str:
-    share = float(a.still.mean())
-    if a.zupt == "off":
-        return "Zero-velocity updates are off: nothing holds the position"
-    if not a.still.any() and a.fixes is not None:
-        return "There is no rest in this log: what it measured of position and velocity holds it"
-    if not a.still.any():
-        where = "The column stationary declares no rest" if _declared(a) else "There is no rest"
-        return (
-            f"{where} in this log, so nothing to update with: the position is integrated "
-            "alone, and its standard deviations say how little that is worth"
-            f"{_of_its_own_noise(a)}"
-        )
-    if a.still.all():
-        return "The whole log is at rest: there is no path"
-    text = (
-        f"It rests in {number(100 * share, 2)} % of the time, "
-        f"{_counted(len(a.later_stops), 'time')} after "
-        f"the start; the longest drive between two rests takes {quantity(a.longest_leg, 's')}"
-    )
-    if not a.later_stops:
-        text += ": after the start there is nothing to update with"
-    return text + _of_feet(a)
-
-
-def _of_its_own_noise(a: Outcome) -> str:
-    """Where a log rests that is judged by its own noise: the part's is then too small for it."""
-    if a.zupt not in ("auto", "live") or _declared(a):
-        return ""
-    own = max((j - i for i, j in rests(a.recording)), default=0) * a.recording.sample_period
-    if own < LONG_REST:
-        return ""
-    part = a.part or "the part"
-    return (
-        f". By its own noise it rests for {quantity(own, 's', 2)}: the noise of {part} is too "
-        "small for it, is it another part?"
-    )
-
-
-def _of_feet(a: Outcome) -> str:
-    """What a sensor on a foot needs, of a log without rests for long whose body swings."""
-    size = np.linalg.norm(np.nan_to_num(a.recording.gyro), axis=1)
-    swings = float(np.quantile(size, OFTEN)) > SWUNG
-    if a.zupt not in ("auto", "live") or _declared(a) or a.longest_leg < LONG or not swings:
-        return ""
-    return "; of a sensor on a foot, --zupt foot takes its stances as well"
 
 
 def _fixes(a: Outcome) -> Iterator[str]:
@@ -316,7 +251,7 @@ def _status(a: Outcome) -> Iterator[str]:
             continue
         rows = np.flatnonzero(status & bit)
         if len(rows):
-            where = f"{_counted(len(rows), 'sample')}, the first at {a.time[rows[0]]:.6g} s"
+            where = f"{counted(len(rows), 'sample')}, the first at {a.time[rows[0]]:.6g} s"
             text = f"{text[0].upper()}{text[1:]} ({where})"
             yield text if bit != WRONG_REST else text + _wrong_rest(a)
 
@@ -325,7 +260,7 @@ def _wrong_rest(a: Outcome) -> str:
     """What may be wrong where zero velocities contradict the estimate."""
     if any(f.kind in FIXES and f.count for f in a.findings):
         return ""  # those that are wrong may have made it
-    if _declared(a):
+    if a.declares_rests:
         return ". The column stationary may declare a rest that is none"
     return (
         ". A drive at constant speed looks like a rest; a column stationary would tell the two "
@@ -386,7 +321,7 @@ def consistency(a: Outcome) -> str | None:
     zaru = a.mean_nis("zaru_nis")
     text = (
         f"first zero velocity of each stop: mean NIS {number(float(first.mean()))} over "
-        f"{_counted(len(first), 'stop')}"
+        f"{counted(len(first), 'stop')}"
     )
     return (
         text if zaru is None else f"{text}; zero turn rates: {number(zaru)} (3 is right for both)"
