@@ -194,7 +194,7 @@ def _job(
         rest = replace(rest, seen=False)  # a steady drive, as the part's noise shows
     findings += [*checks.findings(recording, rest, gravity), *turns]
     updates = float(zupt != "off")
-    drawn, stds = by_axis(recording, part)
+    drawn, stds = by_axis(recording, part, untold=True)
     clipped = _clipped(recording, part, stds, given)
     settings = {"zupt": updates, "zaru": updates} | clipped | given
     return Job(drawn, clean, part, rest, still, 0.0, gravity, False, zupt == "live", None, settings)

@@ -61,3 +61,17 @@ def white(part):
         # a part that says nothing of its gyro's wander is given a nominal one
         sensors[kind] = Sensor(kind, own | {"rate_random_walk": {"K": np.full(3, 1e-9)}})
     return replace(part, tolerances=(), **sensors)
+
+
+def square(track, place):
+    """The square of the last position's error (3,) over its variance: of three normal numbers."""
+    off, std = track.position[-1] - place, track.position_std[-1]
+    spread = np.diag(std**2)
+    spread[0, 1] = spread[1, 0] = track.correlation[-1] * std[0] * std[1]
+    return float(off @ np.linalg.solve(spread, off))
+
+
+def first_heading(own):
+    """rad; of a walk's first step."""
+    first = own.place[np.argmax(np.linalg.norm(own.place[:, :2], axis=1) > 0.5)]
+    return float(np.arctan2(first[1], first[0]))
