@@ -13,6 +13,7 @@ from pyimu.errors import Finding
 from pyimu.ins.detector import WINDOW
 from pyimu.ins.filtered import Filtered
 from pyimu.ins.measured import Fixes
+from pyimu.ins.too_sure import too_sure
 from pyimu.ins.track import PositionError, Reference, Track, error_of
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
@@ -22,7 +23,8 @@ from pyimu.recording.recording import Recording
 class Outcome:
     """The motion of a recording by each method.
 
-    ``tracks`` by the method's name; ``filter`` are the outputs of the filter; ``still`` (n,) marks
+    ``tracks`` by the method's name, their standard deviations ``too_sure`` times the filter's where
+    nothing but rests holds them; ``filter`` are the outputs of the filter; ``still`` (n,) marks
     rest; ``reference`` the true positions, None without; ``settings`` the filter's parameters by
     name; ``heading0`` rad the yaw with which all began, ``heading_from`` where that came from;
     ``gains`` how many scale factors and misalignments were estimated; ``fixes`` the measured
@@ -87,6 +89,11 @@ class Outcome:
     def declares_rests(self) -> bool:
         """Whether the log's own column says where it rests."""
         return self.zupt != "live" and self.recording.stationary is not None
+
+    @cached_property
+    def too_sure(self) -> float:
+        """How many times as far off as the filter says the drives end; 1 where that is chance."""
+        return too_sure(self.filter, self.later_stops)
 
     @property
     def longest_leg(self) -> float:

@@ -123,7 +123,7 @@ def run(
         job = replace(job, still=found.scalar("at_rest") > 0.5)
     tracks = _tracks(METHODS if method == "all" else (method,), job, found, start, findings, say)
     best = tracks.get("smoother", tracks.get("filter"))
-    return NavigationResult(
+    result = NavigationResult(
         recording.name,
         as_given,
         tracks,
@@ -135,6 +135,10 @@ def run(
         zupt=zupt,
         **job.told(start),
     )
+    if measured is not None:
+        return result
+    wider = {name: track.widened(result.too_sure) for name, track in tracks.items()}
+    return replace(result, tracks=wider)
 
 
 def _measured(job: Job, zupt: str, fixes: bool, told: Told, top_speed: float) -> Fixes | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -37,6 +37,11 @@ class Track(Brief):
         """rad (n,), without jumps by whole turns."""
         w, x, y, z = self.q.T
         return np.unwrap(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
+
+    def widened(self, factor: float) -> Track:
+        """The same with ``factor`` times the standard deviations, where it has any."""
+        stds = {n: getattr(self, n) for n in ("position_std", "velocity_std", "attitude_std")}
+        return replace(self, **{n: factor * v for n, v in stds.items() if v is not None})
 
 
 @dataclass(frozen=True, eq=False, repr=False)

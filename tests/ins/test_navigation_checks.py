@@ -112,15 +112,27 @@ def test_where_what_is_declared_a_rest_is_none_nothing_is_to_be_relied_on(log):
     assert "contradicts the estimate: it is none" not in said(log)
 
 
-def test_standard_deviations_that_the_ends_of_the_drives_refute_are_said():
-    """A sensor that is noisier than its part says."""
+def test_standard_deviations_that_the_ends_of_the_drives_refute_are_widened():
+    """Of a sensor that is noisier than its part says, by how much it is; beside measured positions,
+    of which the ends tell nothing, it is said alone."""
     part, drive = white(assumed()), replace(SHORT, legs=4)
     told = declared(perfect(drive), drive)
     quiet, loud = (noisy(told, scaled(part, share), seed=3) for share in (1.0, 4.0))
-    found = run(loud, part, method="filter")
-    said_so = "The standard deviations are too small: at the end of the drives the velocity was off"
-    assert said_so in found.report()
-    assert said_so not in run(quiet, part, method="filter").report()
+    found, same = (run(log, part, method="filter") for log in (loud, quiet))
+    assert found.too_sure > 1.5 and same.too_sure == 1.0
+    for result in (found, same):
+        std = result.too_sure * result.filter.vector("position_std")
+        np.testing.assert_array_equal(result.tracks["filter"].position_std, std)
+    said_so = (
+        "times as large as the noise makes them: at the end of the drives the velocity was off"
+    )
+    assert said_so in found.report() and said_so not in same.report()
+    places = {f"position_{n}": getattr(told, f"ref_{n}") for n in ("east", "north", "up")}
+    fixed = run(replace(loud, **places), part, method="filter", position_std=20.0)
+    assert "The standard deviations are too small" in fixed.report()
+    np.testing.assert_array_equal(
+        fixed.tracks["filter"].position_std, fixed.filter.vector("position_std")
+    )
 
 
 def scaled(part, share):

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from scipy.special import chdtrc
 
 from pyimu.attitude.report.words import about_contradicted
 from pyimu.errors import Finding
@@ -14,6 +13,7 @@ from pyimu.ins.filter.variables import STATUS_NAMES
 from pyimu.ins.measured import CONTRADICTED
 from pyimu.ins.outcome import Outcome
 from pyimu.ins.report.held import held
+from pyimu.ins.too_sure import WRONG_REST
 from pyimu.report.findings import in_line
 from pyimu.report.numbers import counted, number, quantity
 
@@ -27,13 +27,6 @@ TITLES = {
 MOSTLY = 0.5
 """Share of the samples of rests beyond which these are none, if they contradict the estimate."""
 
-LASTS = 0.1
-"""Share of the samples of a stop from which on it may be none: of one the first few contradict the
-estimate at most, and the others follow them."""
-
-BY_CHANCE = 1e-4
-"""Probability that velocities are called too far off where the standard deviations are right."""
-
 UNTOLD = (
     "without a part the sensor's noise is that of its rest, and its scale factors and axes are "
     "those of a consumer part; --part, or the model.toml of pyimu close, says what they are"
@@ -41,9 +34,6 @@ UNTOLD = (
 
 UNSEEN = 1
 """Bit of the status of samples that are missing."""
-
-WRONG_REST = 2
-"""Bit of the status of a zero velocity that contradicted the estimate."""
 
 FIXES = ("position_fixes", "velocity_fixes")
 """Kinds of the findings about measured positions and velocities."""
@@ -277,14 +267,16 @@ def _too_sure(a: Outcome) -> Iterator[str]:
             "path nor its standard deviations are to be relied on"
         )
         return
-    nis, stops = a.filter.scalar("zupt_nis"), a.later_stops
-    first = np.array([nis[k] for k, end in stops if nis[k] > 0 and wrong[k:end].mean() < LASTS])
-    if not len(first) or chdtrc(3 * len(first), first.sum()) > BY_CHANCE:
+    if a.too_sure == 1.0:
         return
     lacking = "" if a.part else f": {UNTOLD}"
+    off = f"at the end of the drives the velocity was off by {number(a.too_sure, 2)} times what "
+    if a.fixes is not None:
+        yield f"The standard deviations are too small: {off}they say{lacking}"
+        return
     yield (
-        "The standard deviations are too small: at the end of the drives the velocity was off by "
-        f"{number(float(np.sqrt(first.mean() / 3)), 2)} times what they say{lacking}"
+        f"The standard deviations are {number(a.too_sure, 2)} times as large as the noise makes "
+        f"them: {off}it explains{lacking}"
     )
 
 
