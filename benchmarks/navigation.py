@@ -1,4 +1,5 @@
-"""How far off the position is, by method and part: ``python benchmarks/navigation.py [runs]``.
+"""How far off the position is, by method and part: ``python benchmarks/navigation.py [runs] [first
+seed]``.
 
 A robot drives along a square of 2 m at 0.3 m/s, turns on the spot at 45 deg/s, and stops 3 s before
 and after each turn, 73 s at 100 Hz; its motors shake it by 0.3 m/s^2, its sensor lies askew by a
@@ -66,17 +67,18 @@ def filtered(name, logs, parts, **how):
     line(name, [r.errors[method] for r in found], () if method == "strapdown" else found)
 
 
-def main(runs: int) -> None:
+def main(runs: int, first: int) -> None:
     if runs:
-        errors(runs)
+        errors(range(first, first + runs))
     speed()
 
 
-def errors(runs: int) -> None:
+def errors(seeds: range) -> None:
     part, truth = pyimu.part(PART), square(**MORE)
     ins_of_log(Layout(part)).run(np.tile(ins_of_log(Layout(part)).start_inputs, (60_000, 1)))
-    specimens = [part.specimen(seed) for seed in range(runs)]
-    logs = [s.simulate(truth, seed=seed) for seed, s in enumerate(specimens)]
+    runs = len(seeds)
+    specimens = [part.specimen(seed) for seed in seeds]
+    logs = [s.simulate(truth, seed=seed) for seed, s in zip(seeds, specimens, strict=True)]
     print(f"{runs} runs{'':28}   end, m      95 %  RMS path  yaw deg   NIS   ZARU   NEES")
     print(f"{'':34}   median                median      RMS  3 is right    2 is right")
     line("paper, nothing compensated", [by_paper(log) for log in logs])
@@ -88,27 +90,28 @@ def errors(runs: int) -> None:
     filtered("filter, calibrated", logs, specimens)
     filtered("filter, calibrated, NHC", logs, specimens, nhc=True)
     filtered("smoother, calibrated, NHC", logs, specimens, nhc=True, method="smoother")
-    by_data_sheets(truth, runs)
-    tactical(runs)
+    by_data_sheets(truth, seeds)
+    tactical(seeds)
 
 
-def by_data_sheets(truth, runs):
+def by_data_sheets(truth, seeds):
     part = pyimu.part("sparkfun6dof_v2")
-    specimens = [part.specimen(seed) for seed in range(runs)]
-    logs = [s.simulate(truth, seed=seed) for seed, s in enumerate(specimens)]
-    filtered("sparkfun6dof_v2, uncalibrated", logs, [part] * runs)
-    filtered("sparkfun6dof_v2, uncalibrated, NHC", logs, [part] * runs, nhc=True)
-    filtered("sparkfun6dof_v2, its own detector", logs, [part] * runs, zupt="live")
+    specimens = [part.specimen(seed) for seed in seeds]
+    logs = [s.simulate(truth, seed=seed) for seed, s in zip(seeds, specimens, strict=True)]
+    all_parts = [part] * len(seeds)
+    filtered("sparkfun6dof_v2, uncalibrated", logs, all_parts)
+    filtered("sparkfun6dof_v2, uncalibrated, NHC", logs, all_parts, nhc=True)
+    filtered("sparkfun6dof_v2, its own detector", logs, all_parts, zupt="live")
     filtered("sparkfun6dof_v2, calibrated, NHC", logs, specimens, nhc=True)
 
 
-def tactical(runs):
+def tactical(seeds):
     """The STIM300 by its data sheet, with its own noise alone."""
     part = pyimu.part("stim300")
     rate = 100.0
     slow = replace(part, sample_rate=rate, tolerances=())
     truth = square(sample_rate=rate, **MORE)
-    logs = [slow.simulate(truth, seed=seed) for seed in range(min(runs, 12))]
+    logs = [slow.simulate(truth, seed=seed) for seed in seeds[:12]]
     filtered("filter, stim300 at 100 Hz", logs, [slow] * len(logs))
 
 
@@ -160,4 +163,7 @@ def of_a_unit(block, u) -> str:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else RUNS)
+    main(
+        int(sys.argv[1]) if len(sys.argv) > 1 else RUNS,
+        int(sys.argv[2]) if len(sys.argv) > 2 else 0,
+    )
