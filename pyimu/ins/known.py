@@ -25,8 +25,9 @@ SAME = 1e-3
 """Share by which the limits of a triad's axes may differ, by corrections of each."""
 
 LEAST = 0.5
-"""Share of a declared range below which no sensor is clipped: a coarse converter shows a steady
-turn, the fastest of a log, by two or three values as well."""
+"""Share of a declared range, or of what another axis of the triad shows, below which no sensor is
+clipped: a coarse converter shows a steady turn, the fastest of a log, by two or three values as
+well."""
 
 
 def known_part(declared: Part | None, recording: Recording, rest: Rest) -> Part:
@@ -82,9 +83,10 @@ def _with_true_limit(sensor: Sensor, own: Sensor, samples: np.ndarray) -> Sensor
         return sensor
     limit = np.array(sensor.values[effect][parameter])
     declared = own.values.get(effect, {}).get(parameter, np.zeros(3))
+    least = LEAST * np.maximum(declared, np.nanmax(np.abs(samples)))
     for axis, column in enumerate(samples.T):
         narrow = min(limit[axis], np.nanmax(column) - np.nanmin(column))
-        none = narrow <= STEPS * _step(column) or limit[axis] < LEAST * declared[axis]
+        none = narrow <= STEPS * _step(column) or limit[axis] < least[axis]
         if limit[axis] != declared[axis] and none:
             limit[axis] = declared[axis]
     limit = _of_triad(limit, samples)

@@ -19,8 +19,9 @@ from walks import G, walk
 
 from pyimu import Recording
 from pyimu.ins import run
-from pyimu.ins.known import known_part
+from pyimu.ins.known import _with_true_limit, known_part
 from pyimu.ins.stops import rest_at_start
+from pyimu.model.sensor import Sensor
 from pyimu.rover.trajectory import Drive
 
 LIMIT, SELDOM, SECONDS = 4 * G, 7 * G, 40.0
@@ -54,6 +55,19 @@ def test_the_axes_of_a_triad_have_one_range():
     limits = part.accel.values["saturation"]["limit"]
     most = np.abs(log.accel).max(axis=0)
     np.testing.assert_array_equal(limits > 0, most >= LIMIT)
+
+
+def test_what_other_axes_pass_by_far_is_no_limit():
+    """Of one axis two extremes of a walk may be alike: where the others go five times as far, no
+    range ends there."""
+    rng = np.random.default_rng(3)
+    samples = rng.standard_normal((2000, 3)) * [4.0, 0.8, 4.0]
+    sensor = Sensor("accel", {"saturation": {"limit": [0.0, 2.0, 0.0]}})
+    samples[:, 1] = np.clip(samples[:, 1], -2.0, 2.0)
+    assert _with_true_limit(sensor, Sensor("accel", {}), samples).values == {}
+    alone = samples * [0.1, 1.0, 0.1]
+    kept = _with_true_limit(sensor, Sensor("accel", {}), alone).values["saturation"]["limit"]
+    np.testing.assert_array_equal(kept, [0.0, 2.0, 0.0])
 
 
 def test_a_limit_that_single_samples_touch_is_seen():
