@@ -10,11 +10,12 @@ from pyimu.errors import Finding
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import clock_of
+from pyimu.identification.scales import POSITIONS_SCALE
 from pyimu.identification.search.forward import Investigation
 from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
 from pyimu.recording.reference.unlagged import ADAPTS, HIGHEST, LAG
 from pyimu.recording.reference.unsmoothed import SMOOTHED
-from pyimu.report.numbers import joined, number
+from pyimu.report.numbers import joined, number, with_limits
 
 FEW = 3
 """Up to so many logs are said each by itself."""
@@ -41,18 +42,43 @@ def taken_out(found: Mapping[str, Investigation], heading: Heading) -> str:
 
 def undone(findings: Sequence[Finding]) -> str:
     """Which references, or positions of them, lag as behind a filter, or were smoothed, which
-    positions are late beside attitudes, and which have a vertical that is not z; nothing where none
-    is.
+    positions are late beside attitudes, or of another scale, and which have a vertical that is not
+    z; nothing where none is.
     """
     by_kind = {
         (kind, what): [
-            f.detail for f in findings if f.kind == kind and PLACES.get(f.column, "") == what
+            f.detail
+            for f in findings
+            if f.kind == kind and PLACES.get(f.column, "") == what and not _is_or_gain(f)
         ]
         for what in ("", *PLACES.values())
         for kind in SAID
     }
     said = " and ".join(SAID[kind](found, what) for (kind, what), found in by_kind.items() if found)
     return f"{said}: undone, and no error of the sensor" if said else ""
+
+
+def or_gain(findings: Iterable[Finding]) -> str:
+    """Which positions are of another scale, unless the accelerometer is; nothing where none is."""
+    found = [f.detail for f in findings if _is_or_gain(f)]
+    if not found:
+        return ""
+    return (
+        f"{_scaled(found, PLACES['ref_east'])}, or the accelerometer's scale factors are off by as "
+        "much, which a body that keeps level does not tell: neither is named; its six faces at "
+        "rest would tell"
+    )
+
+
+def _is_or_gain(f: Finding) -> bool:
+    return f.kind == POSITIONS_SCALE and f.detail["told"] == "no"
+
+
+def _scaled(found: list[dict], what: str) -> str:
+    most = max(found, key=lambda f: abs(f["factor"] - 1.0))
+    up_to = "up to " if len(found) > 1 else ""
+    size = with_limits(*(most[k] for k in ("factor", "low", "high")))
+    return f"{_of(what, found)} are {up_to}{size} times as large as the way of the body"
 
 
 def _lagging(lags: list[dict], what: str) -> str:
@@ -112,6 +138,7 @@ SAID: dict[str, Callable[[list[dict], str], str]] = {
     ADAPTS: _adapting,
     SMOOTHED: _smooth,
     LATE: _late,
+    POSITIONS_SCALE: _scaled,
     SIDEWAYS: _sideways,
 }
 """What is said of the findings of each kind."""

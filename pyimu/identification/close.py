@@ -23,6 +23,12 @@ from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.memory import less_than_memory, remembered
 from pyimu.identification.formula.search import Look, look
+from pyimu.identification.gain_or_scale import (
+    held_shares,
+    let_go,
+    names_gain,
+    with_scale_held,
+)
 from pyimu.identification.instead import (
     formula_less_than_noise,
     less_than_noise,
@@ -233,8 +239,17 @@ def _examined(
     trials = _shown(start, declared, free, trials)
     prior = _prior(start.sensor(kind), free)
     unfit = own or misfit(trials)
-    seen = investigate(start.sensor(kind), free, trials, held, say=say, prior=prior, unfit=unfit)
-    return _looked(seen, prior, _random(start, kind), say)
+    again = partial(investigate, start.sensor(kind), free, say=say, prior=prior, unfit=unfit)
+    looked = partial(_looked, prior=prior, random=_random(start, kind), say=say)
+    shares = {} if unfit else held_shares(start.sensor(kind), free, trials)
+    if shares:
+        known = ([with_scale_held(t, shares) for t in some] for some in (trials, held))
+        found = looked(again(*known))
+        if names_gain(found.investigation):
+            return replace(found, investigation=let_go(found.investigation, shares))
+        if found.formula is not None:
+            forget()
+    return looked(again(trials, held))
 
 
 def _looked(

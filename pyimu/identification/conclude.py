@@ -14,7 +14,7 @@ from pyimu.identification.advice import advice
 from pyimu.identification.as_part import SENSORS, as_part
 from pyimu.identification.by_attitude import settled
 from pyimu.identification.can_tell import rows_fitted, shows_anything, unfit
-from pyimu.identification.clocks import taken_out, undone
+from pyimu.identification.clocks import or_gain, taken_out, undone
 from pyimu.identification.confounds import what_no_log_tells_apart
 from pyimu.identification.declared import changed_noise, drifting, released
 from pyimu.identification.estimated import estimated
@@ -40,6 +40,8 @@ from pyimu.identification.reference.order import other_order
 from pyimu.identification.references import references
 from pyimu.identification.result import Closed
 from pyimu.identification.rounding import is_coarse
+from pyimu.identification.scales import findings_of as scales_found
+from pyimu.identification.scales import scales_of
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.forward import Investigation, Refused
@@ -83,6 +85,8 @@ def conclude(
     fitting = {kind: with_unshown_held(inv) for kind, inv in found.items() if not inv.unfit}
     fitting, model, attitude, lost = settled(start, declared, fitting, others or logs)
     found = found | fitting
+    scales = scales_of(inv.after for inv in fitting.values())
+    quality = (*quality, *scales_found(scales))
     another = unfit(found)
     magnetometer = examined(start, logs, others, found, another, say)
     say("what is random in what is left")
@@ -112,7 +116,7 @@ def conclude(
         attitude=attitude,
         lost=lost,
         ranges=(*beyond(quality), *set_to_zero(quality, [(a.sensor, a.effect) for a in added])),
-        clocks=tuple(filter(None, (undone(quality), taken_out(found, heading)))),
+        clocks=tuple(filter(None, (undone(quality), or_gain(quality), taken_out(found, heading)))),
         formulas={f.name: f.said for f in formulas},
         unshown=_unshown(found),
     )
@@ -132,7 +136,7 @@ def conclude(
         exhibits=_exhibits(found, added, formulas),
         held_out="holdout" if others else "last 30 %",
         estimated=whole,
-        references=references(found, together),
+        references=references(found, together, scales),
         next=advice(fitting, whole, seen, logs, silent, not others),
         made_with=made_with,
         heading=heading,

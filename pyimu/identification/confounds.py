@@ -22,12 +22,13 @@ def what_no_log_tells_apart(
 
 def _of_places(e: Effect, trials: Iterable[Trial]) -> str:
     """Of a gain beside a force that was made of positions or velocities."""
-    made = any(t.place is not None and t.place.gravity_std > 0.0 for t in trials)
-    if e.stage != "gain" or e.mounting or not made:
+    places = [t.place for t in trials if t.place is not None and t.place.gravity_std > 0.0]
+    if e.stage != "gain" or e.mounting or not places:
         return ""
+    fitted = ", which were fitted beside it," if all(p.scale_std for p in places) else ""
     return (
-        "positions of another size, as a single camera's odometry has them by some percent, show "
-        "much the same of a body that keeps level; its six faces at rest would tell"
+        f"positions of another size{fitted or ','} as a single camera's odometry has them by some "
+        "percent, show much the same of a body that keeps level; its six faces at rest would tell"
     )
 
 

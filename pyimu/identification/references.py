@@ -14,6 +14,7 @@ from pyimu.identification.fit.keys import LogPlace
 from pyimu.identification.fit.noise_floor import reference_variance
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.held_out import clock_of, log_state
+from pyimu.identification.scales import Scale
 from pyimu.identification.search.forward import Investigation
 from pyimu.recording.recording import Recording
 
@@ -27,10 +28,11 @@ NATURE = {
 
 
 def references(
-    found: Mapping[str, Investigation], logs: list[Recording]
+    found: Mapping[str, Investigation], logs: list[Recording], scales: Mapping[str, Scale]
 ) -> tuple[dict[str, Any], ...]:
     """The reference of each log, as report.json has it: the gyro's, else the accelerometer's; and
-    that of the force where it acts at another point than the sensor.
+    that of the force where it acts at another point than the sensor, with the ``scales`` of
+    positions.
 
     ``clock_offset`` is by how much later than the reference says the sensor shows the motion, less
     what is left to the sensor; it is positive where the sensor is late. ``clock_skew`` is by how
@@ -42,7 +44,7 @@ def references(
         moving = [one for one in of_log if one[2].reference != "static"]
         first = (moving or of_log)[:1]
         forces = [one for one in moving[1:] if one[2].place is not None]
-        entries += [_entry(r, *one) for one in (*first, *forces)]
+        entries += [_entry(r, *one, scales) for one in (*first, *forces)]
     return tuple(entries)
 
 
@@ -50,7 +52,9 @@ def _trial(inv: Investigation, name: str) -> Trial | None:
     return next((t for t in (*inv.after.trials, *inv.held) if t.name == name), None)
 
 
-def _entry(r: Recording, kind: str, inv: Investigation, t: Trial) -> dict[str, Any]:
+def _entry(
+    r: Recording, kind: str, inv: Investigation, t: Trial, scales: Mapping[str, Scale]
+) -> dict[str, Any]:
     noise = np.sqrt(reference_variance(inv.after, t.name))
     state = log_state(inv, r.name)
     clock, turn = clock_of(inv, r.name), Rotation.from_matrix(state["rotation"]).magnitude()
@@ -72,6 +76,7 @@ def _entry(r: Recording, kind: str, inv: Investigation, t: Trial) -> dict[str, A
                 "estimated": t.free_rotation,
             },
             "arm": _arm(inv, t, state),
+            "scale": scales[t.name].as_dict() if t.place and t.name in scales else None,
             "noise": _noise(t, noise, inv.after.sensor.output.unit),
             "sample_rate": {"value": _own_rate(r, t), "unit": "Hz"},
             "band_hz": t.band_hz,

@@ -49,6 +49,10 @@ SENTENCES = {
         "of the attitudes"
     ),
     "mount_slipped": "between {first:.5g} and {last:.5g} s",
+    "positions_scale": (
+        "the positions are {factor:.4f} times as large as the way of the body ({low:.4f} to "
+        "{high:.4f}), told from the accelerometer's scale factors: {told:}"
+    ),
     "reference_adapts": ("by {time_constant:.3g} s at rest, half of that at {halves_at:.3g} rad/s"),
     "reference_smoothed": "as by {filter:} {seconds:.3g} s",
     "time_offset": "the column map moves the times by {offset:.12g} s",

@@ -68,6 +68,7 @@ MEANING = {
     "outliers": "single samples that no motion makes: they were left out",
     "position_fixes": "positions that contradict gyro and accelerometer were weighed down",
     "positions_late": "the attitudes were true so long before the positions; these were moved",
+    "positions_scale": "positions and gravity show accelerations of two sizes: estimated beside it",
     "quantization_step": "the least step between values: the sensor's or the logger's rounding",
     "rate_of_part": "the part has another sample rate than the log; the log's counts",
     "rate_wanders": "the sample rate changes slowly: the times count, not the rows",

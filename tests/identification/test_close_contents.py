@@ -213,7 +213,7 @@ def test_exact_confound_is_said(effect):
 )
 def test_a_gain_beside_positions_may_be_their_size(effect, said):
     sensor = Sensor("accel").with_values(effect)
-    for place in (SimpleNamespace(gravity_std=1e-3), None):
+    for place in (SimpleNamespace(gravity_std=1e-3, scale_std=0.03), None):
         trial = SimpleNamespace(place=place, clock=None, free_rotation=True)
         note = what_no_log_tells_apart(CATALOGUE[effect], sensor, [trial])
         assert ("positions of another size" in note) is (said and place is not None)

@@ -9,11 +9,13 @@ from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 
 import pyimu
 from pyimu.identification.fit.band import Band
-from pyimu.identification.fit.place import UNKNOWN, Place
+from pyimu.identification.fit.place import SCALE, UNKNOWN, Place
 from pyimu.identification.fit.trial import gyro_trial
 from pyimu.identification.reference.place import BEYOND
 from pyimu.identification.reference.upright import with_upright_places
 from pyimu.identification.trials import BAND_SHARE
+from pyimu.model.kinds import OWN
+from pyimu.model.signals import COLUMNS, N_INPUT
 from pyimu.recording.recording import Recording
 
 RATE, FINE, GRAVITY = 100.0, 5, 9.8
@@ -41,11 +43,16 @@ def hand(
     heading=0.0,
     world=None,
     reference="position",
+    scale=1.0,
+    lean=1.0,
 ):
-    """A log of a hand that carries a sensor ``arm`` m from the point that cameras track."""
+    """A log of a hand that carries a sensor ``arm`` m from the point that cameras track, whose
+    positions are ``scale`` times as large as its way; it leans by ``lean`` as far as it turns.
+    """
     rng = np.random.default_rng(seed)
     fine = np.arange(round(minutes * 60 * RATE * FINE)) / (RATE * FINE)
-    attitude = RotationSpline(fine, Rotation.from_rotvec(waves(rng, fine, 0.5, 0.1, 1.2)[0]))
+    turned = waves(rng, fine, 0.5, 0.1, 1.2)[0] * [lean, lean, 1.0]
+    attitude = RotationSpline(fine, Rotation.from_rotvec(turned))
     place, velocity, push = waves(rng, fine, 0.15, 0.2, 2.0)
     rows = np.arange(200, len(fine) - FINE, FINE)
     time, felt = fine[rows], fine[rows] - late
@@ -63,7 +70,7 @@ def hand(
     about = Rotation.from_rotvec([0.0, 0.0, heading])
     groups = {"ref_q": body.as_quat(scalar_first=True)}
     if reference == "position":
-        seen = about.apply(noisy(place[rows], PLACE_NOISE))
+        seen = about.apply(noisy(scale * place[rows], PLACE_NOISE))
         groups |= dict(zip(PLACES, seen.T, strict=True))
     elif reference == "velocity":
         groups["ref_velocity"] = about.apply(noisy(velocity[rows], 20 * PLACE_NOISE))
@@ -108,6 +115,53 @@ def test_a_blameless_accelerometer_is_examined_by_places_and_its_arm_found(refer
     for name in ("scale_factor", "turn_on_bias"):
         (one,) = [e for e in closed.estimated if (e.sensor, e.effect) == ("accel", name)]
         assert np.all(np.abs(one.value) < 5 * one.std), (name, one.value, one.std)
+
+
+def gain_and_scale(closed):
+    """The accelerometer's scale factors, their errors, and the scale of the positions."""
+    (one,) = [e for e in closed.estimated if (e.sensor, e.effect) == ("accel", "scale_factor")]
+    (scale,) = [e["scale"] for e in closed.references if e["sensor"] == "accel"]
+    return one.value, one.std, scale
+
+
+@pytest.mark.parametrize(
+    "scale, gain",
+    [
+        (1.03, np.zeros(3)),
+        pytest.param(1.0, np.array([0.03, -0.02, 0.01]), marks=pytest.mark.long),
+        pytest.param(0.97, np.array([0.02, 0.02, 0.02]), marks=pytest.mark.long),
+    ],
+)
+def test_the_scale_of_positions_is_no_scale_factor_of_the_accelerometer(scale, gain):
+    """Gravity tells them apart as far as it is known at an unknown place, 0.15 %."""
+    log = hand(arm=(0.05, -0.03, 0.1), scale=scale, errs=lambda f, w: f * (1.0 + gain))
+    closed = pyimu.close(log)
+    assert closed.verdict == "clean" and not closed.added, closed.report()
+    value, std, found = gain_and_scale(closed)
+    assert np.all(np.abs(value - gain) < 5 * std) and np.all(std < 0.0025), (value, std)
+    assert found["value"] == pytest.approx(scale, abs=5 * found["std"]) and found["std"] < 0.0025
+    said = [f for f in closed.quality if f.kind == "positions_scale"]
+    assert bool(said) is found["told"] is (scale != 1.0), said
+    if said:
+        assert said[0].detail["low"] < scale < said[0].detail["high"]
+        assert "times as large as the way of the body" in closed.report()
+
+
+def test_the_scale_of_positions_acts_on_what_moves_the_body_alone():
+    """R^T (k a + g) is the force that is given and (k - 1) of the scale's unknown, a hand's a."""
+    rng = np.random.default_rng(3)
+    q = Rotation.random(50, random_state=rng)
+    push, up = rng.standard_normal((50, 3)), np.array([0.0, 0.0, GRAVITY])
+    u = np.zeros((50, N_INPUT))
+    u[:, OWN["accel"]] = q.inv().apply(push + up)
+    u[:, COLUMNS["attitude"]] = q.as_quat(scalar_first=True)
+    place = Place.of(u, np.arange(50) / RATE, GRAVITY, 0.015, scale_std=0.03)
+    larger = u[:, OWN["accel"]] + 0.1 * place.forces[SCALE].T
+    np.testing.assert_allclose(larger, q.inv().apply(1.1 * push + up), atol=1e-12)
+    assert place.std[SCALE] == 0.03 and SCALE not in place.where and SCALE in place.unknown
+    noise = rng.standard_normal((50, 3))
+    more = place.scattered(noise).forces[SCALE] - place.forces[SCALE]
+    np.testing.assert_allclose(more.T, noise, atol=1e-12)
 
 
 @pytest.mark.long

@@ -49,7 +49,8 @@ def _moved(trial: Trial, sign: int) -> Trial:
         if b - a > 1:
             rate = np.gradient(more[a:b], trial.time[a:b], axis=0)
             u[a:b, COLUMNS[KINDS[trial.kind].own_rate]] += rate
-    return replace(trial, u=u)
+    place = None if trial.place is None else trial.place.scattered(more)
+    return replace(trial, u=u, place=place)
 
 
 def has_noise(fit: Fit) -> bool:

@@ -22,7 +22,7 @@ TEMPERATURE, ITS_RATE = COLUMNS["temperature"], COLUMNS["temperature_rate"]
 class LogState:
     """What belongs to a log and not to the part: bias (3,) at power-on, mounting rotation (3, 3)
     of the reference, ``lag`` s of its thermometer behind the sensor's temperature, what its clock
-    still lacks, None where that is not to be found, and the ``place`` (7,) of its reference force.
+    still lacks, None where that is not to be found, and the ``place`` (8,) of its reference force.
     """
 
     bias: np.ndarray = field(default_factory=lambda: np.zeros(3))

@@ -76,8 +76,9 @@ class LogLag:
 class LogPlace:
     """What a log's reference force is of: how far along one axis of the body the sensor is from the
     point that is tracked [m]; as the fourth gravity there [m/s^2], as the fifth the heading of the
-    positions' world in that of the attitudes [rad], behind these what is left of a filter that was
-    taken out of the positions [s, s^2].
+    positions' world in that of the attitudes [rad], as the sixth by which share the body's way is
+    longer than the positions', behind these what is left of a filter that was taken out of these
+    [s, s^2].
     """
 
     log: str

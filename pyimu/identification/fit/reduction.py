@@ -27,7 +27,10 @@ from pyimu.identification.fit.whiten import Filter
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 
-STRUCTURE = ("scale_factor", "misalignment")
+GAIN = "scale_factor"
+"""The effect that is a gain of each axis."""
+
+STRUCTURE = (GAIN, "misalignment")
 """What stretches of a log show first, beside the bias."""
 
 Segments = list[tuple[int, int]]

@@ -20,7 +20,7 @@ from pyimu.identification.fit.inputs import LogState, before, reference_input
 from pyimu.identification.fit.keys import Key, LogClock, LogLag, LogPlace, LogTurn
 from pyimu.identification.fit.noise_floor import unit_noise
 from pyimu.identification.fit.normal import normal_equations, solve
-from pyimu.identification.fit.place import STILL_LATE, STILL_SMOOTH
+from pyimu.identification.fit.place import SCALE
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.trial import Trial, marked
 from pyimu.identification.fit.whiten import RandomWalk
@@ -127,7 +127,7 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
     # The thermometer goes with the part.
     lag = float(np.mean([s.lag for s in fit.states.values()]))
     place = np.mean([s.place for s in fit.states.values()], axis=0)
-    place[STILL_LATE:] = 0.0  # what is left of a filter is each log's own
+    place[SCALE:] = 0.0  # their scale, and what is left of a filter, is each log's own
     clock = _clock_to_begin(fit, head)
     mountings = [LogState(np.zeros(3), r, lag, clock, place) for r in _mountings(fit, head)]
     state = min(mountings, key=lambda s: float(np.sum(_centred(fit, head, s) ** 2)))
@@ -138,18 +138,21 @@ def _head_state(fit: Fit, head: Trial) -> LogState:
         if not normal.keys:
             return state
         known = {LogTurn: spread**-2, LogLag: KNOWN**-2, LogPlace: PLACED**-2, LogClock: STEADY**-2}
-        known |= {LogClock(head.name, 0): late**-2, **_of_filter(head)}
+        known |= {LogClock(head.name, 0): late**-2, **_of_positions(head)}
         prior = np.diag([known.get(k, known.get(type(k), 0.0)) for k in normal.keys])
         for key, change in zip(normal.keys, solve(normal.gram + prior, normal.score), strict=True):
             state = state.moved(key, change)
     return state
 
 
-def _of_filter(head: Trial) -> dict[Key, float]:
-    """What is known beforehand of what is left of a filter over positions, one over variances."""
-    if head.place is None or not head.place.size:
+def _of_positions(head: Trial) -> dict[Key, float]:
+    """What is known beforehand of the scale of positions and of what is left of a filter over them,
+    one over variances.
+    """
+    if head.place is None:
         return {}
-    return {LogPlace(head.name, k): head.place.std[k] ** -2.0 for k in (STILL_LATE, STILL_SMOOTH)}
+    own = (k for k in head.place.unknown if k >= SCALE)
+    return {LogPlace(head.name, k): head.place.std[k] ** -2.0 for k in own}
 
 
 def _clock_to_begin(fit: Fit, head: Trial) -> ClockChange | None:

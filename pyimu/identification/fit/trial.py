@@ -15,7 +15,7 @@ import numpy as np
 from pyimu.errors import Finding
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.clock import Clock
-from pyimu.identification.fit.place import Place
+from pyimu.identification.fit.place import SCALED, Place
 from pyimu.identification.fit.reduction import Reduction, Rows
 from pyimu.identification.fit.surroundings import fill_place, vibration_of, without_noise
 from pyimu.model.kinds import OWN
@@ -340,7 +340,12 @@ def _place_trial(recording: Recording, latitude: float | None) -> Trial | None:
         free_rotation=True,
         findings=force.findings,
         place=Place.of(
-            u, recording.time, force.gravity, force.gravity_std, shown_hz=force.shown_hz
+            u,
+            recording.time,
+            force.gravity,
+            force.gravity_std,
+            shown_hz=force.shown_hz,
+            scale_std=SCALED if force.kind == "position" else 0.0,
         ),
     )
 

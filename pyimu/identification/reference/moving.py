@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from pyimu.identification.fit.columns import in_band
+from pyimu.identification.fit.place import SCALE
 from pyimu.identification.fit.sample_noise import without_information
 from pyimu.identification.fit.trial import Trial, marked
 from pyimu.model.kinds import OWN
@@ -29,7 +30,9 @@ def in_own_band(trial: Trial) -> Trial:
     seen = np.where(marked(trial.segments, len(rate))[:, None], rate, np.nan)
     seen = seen[:, list(trial.axes)]
     if trial.place is not None and trial.band_hz is not None:
-        seen = np.column_stack([seen, trial.place.forces.reshape(-1, len(rate)).T])
+        # Of its forces the scale's is what two others add up to.
+        apart = np.delete(trial.place.forces, SCALE, axis=0)
+        seen = np.column_stack([seen, apart.reshape(-1, len(rate)).T])
     band = trusted_band(trial.time, trial.y[:, list(trial.axes)], seen, limit)
     return replace(trial, band_hz=band)
 

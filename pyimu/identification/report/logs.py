@@ -123,7 +123,9 @@ def reference_table(closed: Outcome) -> Table:
     """Of each log the instrument that it is compared with."""
     head = ("recording", "reference", "rate and band", "late by [ms]", "the lag is")
     away = any(entry["arm"] for entry in closed.references)
-    table = Table((*head, *(["the sensor's place"] if away else []), "noise", "explains"))
+    scaled = any(entry["scale"] for entry in closed.references)
+    more = [*(["the sensor's place"] if away else []), *(["positions' scale"] if scaled else [])]
+    table = Table((*head, *more, "noise", "explains"))
     for entry in closed.references:
         table.rows.append(
             (
@@ -132,6 +134,7 @@ def reference_table(closed: Outcome) -> Table:
                 _rates(entry["sample_rate"]["value"], entry["band_hz"]),
                 *map(prose, _lag(entry)),
                 *([_arm(entry["arm"])] if away else []),
+                *([_scale(entry["scale"])] if scaled else []),
                 _noise(entry["noise"]),
                 MISSING if entry["explains"] is None else f"{100 * entry['explains']:.4g} %",
             )
@@ -189,6 +192,11 @@ def _arm(arm: dict[str, Any] | None) -> Any:
     ]
     lines = [f"{a} {shown}" for a, shown in zip(AXES, each, strict=True)]
     return Markup("<br>").join([*lines[:2], f"{lines[2]} {pretty(unit)}"])
+
+
+def _scale(scale: dict[str, Any] | None) -> str:
+    """How many times as large as the body's way positions are."""
+    return MISSING if scale is None else with_error(scale["value"], scale["std"])
 
 
 def _noise(noise: dict[str, Any] | None) -> Any:

@@ -14,11 +14,11 @@ import numpy as np
 
 from pyimu.identification.fit.errors_in_variables import equations, has_noise
 from pyimu.identification.fit.fit import Fit, Last, begin, gauss_newton, with_prior
-from pyimu.identification.fit.keys import Coefficient, coefficients_of
+from pyimu.identification.fit.keys import Coefficient, Key, coefficients_of
 from pyimu.identification.fit.limited import with_limited
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.outweighed import without_outweighed
-from pyimu.identification.fit.reduction import STRUCTURE
+from pyimu.identification.fit.reduction import GAIN, STRUCTURE
 from pyimu.identification.fit.reference_noise import (
     drawn_again,
     drawn_anew,
@@ -210,12 +210,23 @@ def _first(start: Fit, believed: bool) -> Fit:
 
 def _in_place(start: Fit) -> Fit:
     """A model with what belongs to its logs alone fitted, where a force acts at a place that is to
-    be found: what an arm and a heading leave of the motion is no noise of a reference.
+    be found: what an arm and a heading leave of the motion is no noise of a reference. Beside
+    positions whose scale is not known free gains of the sensor are fitted with them: alone it would
+    take a part of these that gravity contradicts.
     """
     if all(t.place is None for t in start.trials):
         return start
-    placed = gauss_newton(replace(start, free=frozenset()), STEPS)
-    return replace(placed, free=start.free, last=Last()).with_noise()
+    scaled = any(t.place is not None and t.place.scale_std for t in start.trials)
+    gains = {k for k in start.free if scaled and _is_gain(k)}
+    placed = replace(start, free=frozenset(gains))
+    for _ in range(2 if gains else 1):
+        placed = gauss_newton(placed, STEPS)
+        placed = replace(placed, last=Last()).with_noise()
+    return replace(placed, free=start.free, last=Last())
+
+
+def _is_gain(key: Key) -> bool:
+    return isinstance(key, Coefficient) and key.effect == GAIN
 
 
 def _is_of_reference(search: _Search) -> bool:
