@@ -15,6 +15,8 @@ from pyimu.identification.reference.place import BEYOND
 from pyimu.identification.reference.upright import with_upright_places
 from pyimu.identification.trials import BAND_SHARE
 from pyimu.model.kinds import OWN
+from pyimu.model.part import Part
+from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, N_INPUT
 from pyimu.recording.recording import Recording
 
@@ -145,6 +147,38 @@ def test_the_scale_of_positions_is_no_scale_factor_of_the_accelerometer(scale, g
     if said:
         assert said[0].detail["low"] < scale < said[0].detail["high"]
         assert "times as large as the way of the body" in closed.report()
+
+
+def quiet_part():
+    """A part that declares the noise of ``hand`` and no error."""
+    part = Part("hand", RATE)
+    for kind, noise in (("gyro", GYRO_NOISE), ("accel", ACCEL_NOISE)):
+        N = [noise / np.sqrt(RATE)] * 3
+        walk = {"rate_random_walk": {"K": [1e-7] * 3}}
+        part = part.with_sensor(Sensor(kind, {"angle_random_walk": {"N": N}} | walk))
+    return part
+
+
+@pytest.mark.parametrize(
+    "scale, gain",
+    [
+        (1.03, np.array([0.02, 0.02, 0.02])),
+        pytest.param(1.03, np.zeros(3), marks=pytest.mark.long),
+        pytest.param(1.0, np.array([0.01, 0.0, 0.0]), marks=pytest.mark.long),
+    ],
+)
+def test_beside_a_declared_part_gravity_tells_which_of_the_two_is_off(scale, gain):
+    """Both are, in the first: of gains that all axes share none is seen by itself."""
+    log = hand(arm=(0.05, -0.03, 0.1), scale=scale, errs=lambda f, w: f * (1.0 + gain))
+    closed = pyimu.close(log, part=quiet_part())
+    assert closed.verdict == ("named" if gain.any() else "clean"), closed.report()
+    assert {(a.sensor, a.effect) for a in closed.added} <= {("accel", "scale_factor")}
+    (found,) = [e["scale"] for e in closed.references if e["sensor"] == "accel"]
+    assert found["value"] == pytest.approx(scale, abs=5 * found["std"]) and found["std"] < 0.0025
+    if gain.any():
+        value, std, _ = gain_and_scale(closed)
+        at = np.isfinite(std) & (gain != 0.0)
+        assert np.all(np.abs(value - gain)[at] < 5 * std[at]) and at.sum() == np.sum(gain != 0.0)
 
 
 def test_the_scale_of_positions_acts_on_what_moves_the_body_alone():
