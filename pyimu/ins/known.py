@@ -30,6 +30,10 @@ clipped: a coarse converter shows a steady turn, the fastest of a log, by two or
 well."""
 
 
+SHOWN = 5
+"""Samples of an axis that must go so far: fewer may be spikes."""
+
+
 def known_part(declared: Part | None, recording: Recording, rest: Rest) -> Part:
     """The part as the filter takes it; without one, the noise of the samples at rest."""
     if declared is None:
@@ -83,7 +87,8 @@ def _with_true_limit(sensor: Sensor, own: Sensor, samples: np.ndarray) -> Sensor
         return sensor
     limit = np.array(sensor.values[effect][parameter])
     declared = own.values.get(effect, {}).get(parameter, np.zeros(3))
-    least = LEAST * np.maximum(declared, np.nanmax(np.abs(samples)))
+    shown = np.sort(np.nan_to_num(np.abs(samples)), axis=0)[-SHOWN:][0].max()
+    least = LEAST * np.maximum(declared, shown)
     for axis, column in enumerate(samples.T):
         narrow = min(limit[axis], np.nanmax(column) - np.nanmin(column))
         none = narrow <= STEPS * _step(column) or limit[axis] < least[axis]
