@@ -95,6 +95,14 @@ def test_a_foot_with_a_right_gyro_is_left_alone(seed, pitch):
     assert gyro_findings(foot(seed, pitch=pitch)) == ()
 
 
+@pytest.mark.parametrize("seed, share", [(1, 0.5), (2, 0.35), (8, 0.5)])
+def test_rates_at_the_gyros_limit_tell_nothing(seed, share):
+    """A foot that turns further than its gyro shows turns as if by other axes, or units."""
+    right = foot(seed, pitch=1.0)
+    limit = share * np.abs(right.gyro).max()
+    assert gyro_findings(replace(right, gyro=np.clip(right.gyro, -limit, limit))) == ()
+
+
 def test_of_a_foot_a_mirrored_pitch_is_named():
     right = foot(3)
     (found,) = gyro_findings(replace(right, gyro=right.gyro * [1, -1, 1]))

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.special import stdtr
 
 from pyimu.errors import Finding
+from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.readings import BY_CHANCE, READINGS, changed, likely, named
 from pyimu.recording.recording import Recording
 from pyimu.recording.turning import carried, turning_spans
@@ -62,7 +65,7 @@ def _by_gravity(recording: Recording) -> int | None:
 
     A force of another size than gravity's is in another unit, or has none in it, and tells nothing.
     """
-    turns, force = turning_spans(recording, recording.accel)
+    turns, force = turning_spans(_within_range(recording), recording.accel)
     if not len(turns):
         return None
     size = float(np.median(np.linalg.norm(force, axis=2)))
@@ -71,6 +74,14 @@ def _by_gravity(recording: Recording) -> int | None:
     halves = _in_halves(force)
     without = _off_gravity(halves.sum(axis=1) / _rows(force.shape[1]))
     return next(iter(likely(_off_by_reading(turns, halves), without, COSTS)), None)
+
+
+def _within_range(recording: Recording) -> Recording:
+    """The recording without the rates at a limit of the gyro: how far it turned there is unknown,
+    and axes or units by which it turns less, or more, would fit better.
+    """
+    at_limit = np.column_stack([clipped(column) for column in recording.gyro.T])
+    return replace(recording, gyro=np.where(at_limit, np.nan, recording.gyro))
 
 
 def _rows(count: int) -> np.ndarray:
