@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pyimu.block.alike import Alike, Lanes
-from pyimu.block.vector_plan import Choice, Units, Value, stores
+from pyimu.block.vector_plan import Choice, Cycle, Units, Value, needed_first, stores
 
 
 class Cost:
@@ -112,21 +112,11 @@ class Cost:
 
     def _waits(self, vectors: set[Lanes]) -> bool:
         """Whether one of these vectors needs itself."""
-        needs, done = self._needs, {}
-        for first in vectors & needs.keys():
-            stack = [(first, iter((first,)))]
-            while stack:
-                value, following = stack[-1]
-                for one in following:
-                    known = done.get(one)
-                    if known is None:
-                        done[one] = False
-                        stack.append((one, iter(needs[one])))
-                        break
-                    if not known:
-                        return True
-                else:
-                    stack.pop()
-                    if stack:
-                        done[value] = True
+        begun: dict[Value, bool] = {}
+        try:
+            for first in vectors & self._needs.keys():
+                for _ in needed_first(first, self._needs.__getitem__, begun):
+                    pass
+        except Cycle:
+            return True
         return False

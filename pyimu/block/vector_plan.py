@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import casadi as ca
@@ -154,6 +154,32 @@ def _constants(alike: Alike, entries: dict[int, int], entry: int) -> Lanes:
     return lanes if constant else ()
 
 
+def needed_first(
+    wanted: Value, needs: Callable[[Value], list[Value]], begun: dict[Value, bool]
+) -> Iterator[Value]:
+    """What a value ``needs``, and then itself, each after its own needs, less what was there.
+
+    ``begun`` says of the values that were come to whether they are there. Raises Cycle where one
+    needs itself.
+    """
+    stack = [(wanted, iter((wanted,)))]
+    while stack:
+        value, left = stack[-1]
+        for following in left:
+            done = begun.get(following)
+            if done is None:
+                begun[following] = False
+                stack.append((following, iter(needs(following))))
+                break
+            if not done:
+                raise Cycle
+        else:
+            stack.pop()
+            if stack:
+                begun[value] = True
+                yield value
+
+
 class Plan:
     """The units that make the results of a program by a ``choice`` of vectors, and their ``cost``.
 
@@ -179,22 +205,8 @@ class Plan:
 
     def _make(self, wanted: Value) -> None:
         """Append what a value needs, and then itself, as far as it is not there yet."""
-        begun, stack = self._begun, [(wanted, iter((wanted,)))]
-        while stack:
-            value, needs = stack[-1]
-            for following in needs:
-                done = begun.get(following)
-                if done is None:
-                    begun[following] = False
-                    stack.append((following, iter(self.made_by.needs(following))))
-                    break
-                if not done:
-                    raise Cycle
-            else:
-                stack.pop()
-                if stack:
-                    begun[value] = True
-                    self._finish(value)
+        for value in needed_first(wanted, self.made_by.needs, self._begun):
+            self._finish(value)
 
     def _finish(self, value: Value) -> None:
         """Append a value whose needs are there."""

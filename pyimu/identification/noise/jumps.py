@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -74,9 +74,20 @@ def likelihood_of(
     return found.explained() + sum(jump.gain for jump in jumps_of(found).values())
 
 
+class _Log(NamedTuple):
+    """Means of an axis in a log, the variance (n,) of their white noise, and the log-likelihood of
+    the noise that was chosen.
+    """
+
+    seen: Rows
+    white: np.ndarray
+    smooth: float
+
+
 @dataclass(frozen=True)
 class _Jumping:
     found: Explained
+    seen: dict[int, list[_Log]] = field(default_factory=dict)
 
     def popcorn(self, axes: list[int]) -> float:
         """Log-likelihood [nat], penalised, by which jumps between two levels at the same instants
@@ -99,27 +110,26 @@ class _Jumping:
         ``others`` numbers for each log.
         """
         walk = np.array([self._walk(i) for i in axes])
-        each = [(seen, np.column_stack(white)) for seen, white, _ in self._logs(axes)]
-        total = sum(likelihood(seen, white, walk) for seen, white in each)
-        return total - PENALTY * len(each) * (len(axes) + others)
+        total = 0.0
+        for logs in zip(*(self._logs(i) for i in axes), strict=True):
+            white = np.column_stack([one.white for one in logs])
+            total += likelihood([one.seen for one in logs], white, walk)
+            total -= PENALTY * (len(axes) + others)
+        return total
 
     def _slow_noise(self, axes: list[int]) -> float:
-        total = sum(smooth for _, _, smooth in self._logs(axes))
+        total = sum(one.smooth for i in axes for one in self._logs(i))
         return total - PENALTY * sum(self._numbers(i) for i in axes)
 
-    def _logs(self, axes: list[int]) -> list[tuple[list[Rows], list[np.ndarray], float]]:
-        """Of each fitted log the means, the variance of their white noise, and the log-likelihood
-        of the noise that was chosen.
-        """
-        found, out = self.found, []
-        noises = [found.sizes(found.state, i) for i in axes]
-        for logs in zip(*(found.logs[i] for i in axes), strict=True):
-            if logs[0].fitted:
-                seen = [one.seen().means(FINE) for one in logs]
-                each = list(zip(noises, seen, strict=True))
-                smooth = sum(float(noise.likelihood(one).sum()) for noise, one in each)
-                out.append((seen, [noise.variance(one) for noise, one in each], smooth))
-        return out
+    def _logs(self, i: int) -> list[_Log]:
+        """The fitted logs of an axis, each looked at once."""
+        if i not in self.seen:
+            noise = self.found.sizes(self.found.state, i)
+            means = [one.seen().means(FINE) for one in self.found.logs[i] if one.fitted]
+            self.seen[i] = [
+                _Log(one, noise.variance(one), float(noise.likelihood(one).sum())) for one in means
+            ]
+        return self.seen[i]
 
     def wanders(self, i: int) -> bool:
         """Whether an axis has more slow noise than is known of it beforehand."""
