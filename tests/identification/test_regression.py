@@ -18,7 +18,7 @@ from pyimu.identification.fit.fit import begin, power
 from pyimu.identification.fit.incoherent import Spectrum, in_rows, of_reference
 from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient, LogBias, LogTurn, coefficients_of
-from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trial import SETTLE
@@ -183,6 +183,23 @@ def test_fit_recovers_the_noise(fits):
     # Fifteen parameters or so of 3000 rows are spent; the scatter of the mean over all draws is
     # that of a chi-square.
     assert abs(r.mean() / R - 1) < 4.5 * np.sqrt(2 / (r.size * 1000)) + 5 / 1000
+
+
+@pytest.mark.parametrize("shrunk", [0.5, 0.8])
+def test_a_smaller_model_whose_noise_fits_badly_is_judged_by_that_of_the_larger(shrunk):
+    """What a larger model gains over it by its noise alone is not its coefficients'."""
+    time = H * np.arange(1000)
+    u = inputs(np.random.default_rng(99), time)
+    log = trial(time, u[:, :3] + BIAS + wander(3, time), u)
+    few, more = (keys_of(gyro(), *names) for names in (("misalignment",), GAIN))
+    smaller, larger = (fit(begin(gyro(), free, [log])) for free in (few, more))
+    noise = {i: replace(n, r=shrunk * n.r) for i, n in smaller.noise.items()}
+    badly = replace(smaller, noise=noise)
+    badly = replace(badly, log_likelihood=maximum_likelihood._likelihood(badly))
+    by_chance = chi2.isf(ALARM, 3) / 2
+    assert larger.log_likelihood - badly.log_likelihood > 2 * by_chance
+    assert 0.0 <= advantage(larger, badly) < by_chance
+    assert advantage(larger, smaller) == pytest.approx(advantage(larger, badly), abs=0.1)
 
 
 def test_mounting_and_bias_of_each_log_are_recovered():

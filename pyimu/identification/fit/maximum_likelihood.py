@@ -124,12 +124,18 @@ def advantage(larger: Fit, smaller: Fit) -> float:
     """Log-likelihood [nat] of a fitted model over one that lacks some of its coefficients.
 
     Where the part declares its random walk, both are judged by the noise that the larger leaves:
-    one fitted to what it explains would take most of it for drift.
+    one fitted to what it explains would take most of it for drift. Elsewhere the smaller is judged
+    by its own noise or that of the larger, by which it is the likelier: rounds of noise and
+    coefficients may end where another noise is likelier, above all beside a reference whose noise
+    is taken out, and what the larger gains by that is none of its coefficients'.
     """
-    if not wander_is_declared(larger) or larger.noise == smaller.noise:
-        return larger.log_likelihood - smaller.log_likelihood
+    own = larger.log_likelihood - smaller.log_likelihood
+    declared = wander_is_declared(larger)
+    if larger.noise == smaller.noise or not (declared or own > 0.0):
+        return own
     other = _least_squares(replace(smaller, noise=larger.noise), 2)
-    return larger.log_likelihood - _likelihood(other)
+    by_one = larger.log_likelihood - _likelihood(other)
+    return by_one if declared else min(own, by_one)
 
 
 def advantage_by_one_noise(one: Fit, other: Fit) -> float:
