@@ -40,6 +40,11 @@ WAITS = 2.0
 REGULAR = 0.9
 """Share of the bursts whose sizes are alike, but for a row: one polls evenly."""
 
+COARSE = "coarse_stamps"
+"""The finding of stamps that several rows share."""
+
+IN_BURSTS = "of rows that come in bursts"
+
 
 class EvenTimes:
     """Gives rows of one stamp even times, row by row, whatever the pieces in which they come.
@@ -95,8 +100,13 @@ class EvenTimes:
     def finding(self, **more: str) -> Finding:
         """That rows were spread over their stamps, with ``more`` about these."""
         detail = {"unit": self.unit, "period": self.period}
-        bursts = {"stamps": "of rows that come in bursts"} if self.within else {}
-        return Finding("coarse_stamps", "time", self.count, detail | bursts | more)
+        bursts = {"stamps": IN_BURSTS} if self.within else {}
+        return Finding(COARSE, "time", self.count, detail | bursts | more)
+
+
+def came_in_bursts(finding: Finding) -> bool:
+    """Whether a finding says that the rows of a log were stamped as a bus handed them over."""
+    return finding.kind == COARSE and finding.detail.get("stamps") == IN_BURSTS
 
 
 def _within(stamps: np.ndarray) -> float:

@@ -80,3 +80,20 @@ def test_the_attitude_is_compared_with_the_part_as_its_file_has_it(monkeypatch):
     assert "rate_random_walk" not in closed.after.gyro.values
     for part in parts:
         assert "rate_random_walk" not in part.gyro.values
+
+
+@pytest.mark.parametrize("size", [1, 8])
+def test_what_samples_waited_to_be_read_is_no_lag_of_the_sensor(size):
+    """The same lag of a sensor whose samples are read one by one may be its own."""
+    log, mocap = pair(4, 4e-3, 40.0)
+    row = np.arange(len(log.time))
+    burst, within = row // size, row % size
+    read = H * (burst * size + size - 1) + 1e-4 * within
+    log = Recording.from_arrays(
+        name="log", time=read if size > 1 else log.time, gyro=log.gyro, accel=log.accel
+    )
+    closed = pyimu.close(log, reference=mocap)
+    lags = [a for a in closed.added if a.sensor == "gyro"]
+    clock = closed.recordings[0].log_state["gyro"]["reference"]["clock"]
+    assert clock["taken_out"] == (size > 1) and bool(lags) == (size == 1)
+    assert clock["late"] == pytest.approx(4e-3, abs=5e-4)

@@ -22,6 +22,7 @@ from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, SIGNALS, START, SURROUNDINGS
 from pyimu.recording.clock import runs
+from pyimu.recording.coarse import came_in_bursts
 from pyimu.recording.complete import completed
 from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.quality.healing import healed, short_runs
@@ -54,6 +55,13 @@ mounting and no clock, but its own noise."""
 OWN_LAG = frozenset({"time_offset", LAG, ADAPTS})
 """Findings of a reference whose clock somebody has set by hand, or which lagged: what is late
 beside it is what they left."""
+
+
+def leaves_a_lag(finding: Finding) -> bool:
+    """Whether a finding says where a lag is from that is none of the sensor's: what was done to the
+    reference, or samples that waited to be read.
+    """
+    return finding.kind in OWN_LAG or came_in_bursts(finding)
 
 
 class Doubt(IntEnum):
@@ -445,6 +453,9 @@ def _trial(
             findings += (Finding(what, kind, int(rows.sum())),)
     other = () if recording.reference is None else recording.reference.findings
     findings += tuple(f for f in other if f.kind in (*OWN_LAG, SMOOTHED, LATE, SIDEWAYS))
+    if recording.reference is not None:
+        # Stamps that a reference does not share.
+        findings += tuple(filter(came_in_bursts, recording.findings))
     return Trial(
         recording.name,
         kind,

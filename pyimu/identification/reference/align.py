@@ -17,7 +17,7 @@ from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.structure import prior_of, with_structure
-from pyimu.identification.fit.trial import OWN_LAG, Trial, marked
+from pyimu.identification.fit.trial import Trial, leaves_a_lag, marked
 from pyimu.identification.reference.clock import explained_by, measure, rebanded, shifted
 from pyimu.identification.reference.place import placed
 from pyimu.identification.reference.slips import placed_slips
@@ -55,15 +55,16 @@ def aligned(
     A lag may be the sensor's own where all fitted logs have it in common and the sensor is late. It
     is left in then, for the effects that make one. The clock's is what differs from log to log,
     wanders, makes the sensor early, is longer than any sensor's, or lies beside a clock that
-    somebody set or a lag that was undone. A clock that seems to drift or to wander by less than a
-    sample is ``doubtful``, and has one lag where ``lines`` are not wanted.
+    somebody set, a lag that was undone, or samples that waited to be read in bursts. A clock that
+    seems to drift or to wander by less than a sample is ``doubtful``, and has one lag where
+    ``lines`` are not wanted.
     """
     clocks = [_clock(t, sensor, lines) for t in trials]
     clocks += [_clock(t, sensor, lines, apart=True) for t in held]
     both = zip((*trials, *held), clocks, strict=True)
     clocks = [_or_known(t, c, known.get(t.name)) for t, c in both]
     seen = [c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)]
-    theirs = any(f.kind in OWN_LAG for t in trials for f in t.findings)
+    theirs = any(leaves_a_lag(f) for t in trials for f in t.findings)
     own, std = 0.0 if theirs else in_common(seen), _std_of_mean(seen)
     return [_aligned(t, c, own, std) for t, c in zip((*trials, *held), clocks, strict=True)]
 
@@ -198,7 +199,7 @@ def _aligned(trial: Trial, clock: Clock | None, own: float, own_std: float) -> T
     # A lag that seems to change, and is nobody's own, is the clock's.
     is_clock = clock.changed and not own and abs(clock.mean) >= DOUBTFUL * clock.std
     by_chance = rest.keeps_step and abs(rest.mean) < chance and not is_clock
-    if by_chance and not any(f.kind in OWN_LAG for f in trial.findings):
+    if by_chance and not any(map(leaves_a_lag, trial.findings)):
         return replace(trial, clock=rest)
     found = Finding(
         "reference_clock",
