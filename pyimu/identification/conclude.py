@@ -47,6 +47,7 @@ from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.forward import Investigation, Refused
 from pyimu.identification.search.inexact import left_by_forms
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.search.rounded import OF_DIGITS
 from pyimu.identification.third_sensor import and_magnetometer, of_magnetometer
 from pyimu.identification.unshown import with_unshown_held
 from pyimu.identification.verdict import Evidence, Verdict, verdict
@@ -105,7 +106,7 @@ def conclude(
         rows=rows_fitted(found),
         added=tuple(added),
         changed=tuple(changed),
-        unexplained=_unexplained(looks, noises),
+        unexplained=_unexplained(found, looks, noises),
         drift=drifts,
         refused=_refused(found, noises),
         fates=tuple(f for k, inv in fitting.items() for f in _fates(k, inv, added, noises[k])),
@@ -189,9 +190,15 @@ def _unless_remembered(noise: Noise, memory: Remembered | None) -> Noise:
     return Noise(shapes=memory.unexplained, unasked=REMEMBERED)
 
 
-def _unexplained(looks: Mapping[str, Look], noises: Mapping[str, Noise]) -> tuple[Unexplained, ...]:
-    of_inputs = tuple(k.unexplained for k in looks.values() if k.unexplained)
-    return of_inputs + tuple(s for n in noises.values() for s in n.shapes)
+def _unexplained(
+    found: Found, looks: Mapping[str, Look], noises: Mapping[str, Noise]
+) -> tuple[Unexplained, ...]:
+    """What no effect accounts for, but of a sensor of whose reference the rounding has been taken
+    for an effect: it looks like all of these.
+    """
+    rounded = {k for k, inv in found.items() if any(r.reason == OF_DIGITS for r in inv.refused)}
+    of_inputs = tuple(k.unexplained for n, k in looks.items() if k.unexplained and n not in rounded)
+    return of_inputs + tuple(s for k, n in noises.items() if k not in rounded for s in n.shapes)
 
 
 def _refused(found: Found, noises: Mapping[str, Noise]) -> tuple[tuple[str, Refused], ...]:

@@ -14,6 +14,7 @@ from pyimu.identification.found import Added, Changed, Errors
 from pyimu.identification.search.forward import AS_NOISE, AS_ROUNDING, Refused
 from pyimu.identification.search.judge import OF_REFERENCE
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.search.rounded import OF_DIGITS
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.report.numbers import joined, number
 
@@ -33,7 +34,7 @@ FEW = 3
 WORSE = 1.02
 """Ratio of the attitude errors after and before from which on the model is worse for attitude."""
 
-NO_EFFECT = (AS_NOISE, AS_ROUNDING, OF_REFERENCE)
+NO_EFFECT = (AS_NOISE, AS_ROUNDING, OF_DIGITS, OF_REFERENCE)
 """Reasons to refuse an effect that say what made it look like one."""
 
 VERDICTS = (
@@ -179,14 +180,16 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
         )
     if wanders := wandering(e):
         return Verdict("drift", wanders)
+    rounded = any(r.reason == OF_DIGITS for _, r in e.refused)
+    but = " but what the rounding of the reference's numbers may hide" if rounded else ""
     if e.unexamined:
         seen = joined(sorted(e.examined))
-        rest = f"nothing is missing of the {seen}, and more was not examined"
+        rest = f"nothing is missing of the {seen}{but}, and more was not examined"
         return Verdict("undecidable", rest)
     if e.beside is not None:
         return e.beside
     corrected = "; declared values that the data contradict are listed as changed"
-    said = "nothing is missing" + (corrected if e.changed else "")
+    said = f"nothing is missing{but}" + (corrected if e.changed else "")
     return Verdict("clean", said, (*instead(e.changed), *_not_looked_for(e.fates)))
 
 

@@ -30,6 +30,9 @@ SAMPLE = (
 )
 """Details of findings that have the unit of the column."""
 
+UNITS = {"gyro": "rad/s", "accel": "m/s^2", "ref_rate": "rad/s", "ref_force": "m/s^2"}
+"""SI units of columns, by their names or what these begin with."""
+
 SECONDS, SECONDS_OF_TIME = (
     ("time_constant", "period", "late", "least_late", "most_late", "late_std"),
     ("longest", "total", "rms", "first", "origin", "until", "unit"),
@@ -71,7 +74,7 @@ def detail(f: Finding) -> str:
 
 def _numbers(column: str, details: Mapping[str, Any]) -> list[str]:
     """Details of a finding about a column with their units."""
-    sample = {"gyro": "rad/s", "accel": "m/s^2"}.get(column.partition("_")[0])
+    sample = UNITS.get(column, UNITS.get(column.partition("_")[0]))
     parts = []
     for name, value in details.items():
         text = (

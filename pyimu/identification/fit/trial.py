@@ -26,6 +26,8 @@ from pyimu.recording.coarse import came_in_bursts
 from pyimu.recording.complete import completed
 from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.quality.healing import healed, short_runs
+from pyimu.recording.quality.resolution import RELEVANT_STEP, last_digit
+from pyimu.recording.quality.scatter import scatter
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.filled import FILLED, filled_in, resolution
@@ -55,6 +57,18 @@ mounting and no clock, but its own noise."""
 OWN_LAG = frozenset({"time_offset", LAG, ADAPTS})
 """Findings of a reference whose clock somebody has set by hand, or which lagged: what is late
 beside it is what they left."""
+
+
+MEASURED = ("rate", "force")
+"""References that were measured themselves, and not differentiated."""
+
+NO_DIGITS = (0.0, 0.0, 0.0)
+
+DIGITS = "reference_digits"
+"""The finding of a reference whose numbers are rounded."""
+
+QUIET = 0.1
+"""Quantile of the scatter of windows that is taken for a sensor's noise."""
 
 
 def leaves_a_lag(finding: Finding) -> bool:
@@ -88,13 +102,14 @@ class Trial:
     heeded where no band mixes them with their neighbours. ``band_hz`` is the band of a derived
     reference, at most ``band_limit``; ``clock`` what was taken out of the reference's clock; ``up``
     (3,) the direction upward in the sensor's axes where the reference knows only the turn about it;
-    ``noise`` (n, 3) a draw of the reference's noise, where it has any to speak of, and
-    ``noise_error`` (3,) the standard error of its power over that power, ``doubt`` whether it may
-    have noise that was not drawn. ``reduction`` is how samples become rows where these are whole
-    stretches of the log. ``samples`` (m, 3) are those of the reference at times of its own, where
-    it was measured itself. ``healed`` (n, 3) is what was taken off samples that look like spikes,
-    where there are any; ``limited`` (n, 3) marks those that lie where the output stops and that a
-    band would spread.
+    ``digits`` (3,) the steps to which the numbers of a measured reference were rounded, 0 where
+    none is seen; ``noise`` (n, 3) a draw of the reference's noise, where it has any to speak of,
+    and ``noise_error`` (3,) the standard error of its power over that power, ``doubt`` whether it
+    may have noise that was not drawn. ``reduction`` is how samples become rows where these are
+    whole stretches of the log. ``samples`` (m, 3) are those of the reference at times of its own,
+    where it was measured itself. ``healed`` (n, 3) is what was taken off samples that look like
+    spikes, where there are any; ``limited`` (n, 3) marks those that lie where the output stops and
+    that a band would spread.
     """
 
     name: str
@@ -115,6 +130,7 @@ class Trial:
     findings: tuple[Finding, ...] = ()
     band_limit: float | None = None
     clock: Clock | None = None
+    digits: tuple[float, ...] = NO_DIGITS
     noise: np.ndarray | None = None
     noise_error: tuple[float, ...] = (0.0, 0.0, 0.0)
     doubt: Doubt = Doubt.NONE
@@ -415,6 +431,20 @@ def _turned(u: np.ndarray, recording: Recording) -> set[str]:
     return {"turned"}
 
 
+def _digits(values: np.ndarray, y: np.ndarray) -> tuple[float, ...]:
+    """The steps (3,) to which a reference's numbers (m, 3) were rounded, 0 where they are far below
+    the noise of the samples (n, 3).
+    """
+    steps = [last_digit(np.ascontiguousarray(v)) for v in values.T]
+    noise = [scatter(np.abs(np.diff(v, 2)), QUIET) / np.sqrt(6.0) for v in y.T]
+    return tuple(s if s > RELEVANT_STEP * n else 0.0 for s, n in zip(steps, noise, strict=True))
+
+
+def _said_of_digits(digits: tuple[float, ...], reference: str) -> tuple[Finding, ...]:
+    step = max(digits)
+    return (Finding(DIGITS, f"ref_{reference}", 1, {"step": step}),) if step else ()
+
+
 def _trial(
     recording: Recording,
     kind: str,
@@ -456,6 +486,11 @@ def _trial(
     if recording.reference is not None:
         # Stamps that a reference does not share.
         findings += tuple(filter(came_in_bursts, recording.findings))
+    digits = NO_DIGITS
+    if reference in MEASURED:
+        samples = more.get("samples")
+        digits = _digits(u[:, OWN[kind]] if samples is None else samples, y)
+        findings += _said_of_digits(digits, reference)
     return Trial(
         recording.name,
         kind,
@@ -469,6 +504,7 @@ def _trial(
         axes=axes,
         band_hz=band_hz,
         findings=findings,
+        digits=digits,
         left_out=bad,
         healed=taken_off if taken_off is not None and taken_off.any() else None,
         **more,

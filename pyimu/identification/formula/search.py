@@ -52,6 +52,7 @@ from pyimu.identification.search.forward import Investigation, Refused, Step
 from pyimu.identification.search.inexact import left_by_forms
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.own_signal import is_of_reference
+from pyimu.identification.search.rounded import within_digits
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.silent import silent
@@ -250,7 +251,8 @@ def _once(
         keys = keys_of_terms(name, chosen)
         most = advantage(beyond, inv.after) - PENALTY * (len(keys) - inv.brought_in)
         may_displace = bool(inv.steps) and most > needed
-        if (may_displace or is_confirmed(seen)) and not is_denied(inv, beyond, seen):
+        denied = is_denied(inv, beyond, seen) or within_digits(inv.after, beyond)
+        if (may_displace or is_confirmed(seen)) and not denied:
             done[known] = _beside(inv, name, chosen, fitted, needed, again)
         else:
             done[known] = None, left_of(chosen, seen)

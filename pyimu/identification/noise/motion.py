@@ -19,7 +19,8 @@ def motion_cells(
     logs: Sequence[Rows], noise: RandomWalk, kinds: Sequence[Kind]
 ) -> tuple[Cells, np.ndarray] | None:
     """Cells of the innovations of an axis whose variance is that of ``noise`` times one number that
-    is free, and the column (k, c) that each kind would add; None where nothing moves.
+    is free, beside what the rounding of a reference adds, and the column (k, c) that each kind
+    would add; None where nothing moves.
     """
     made = [_whitened(one.seen(), noise) for one in logs if one.fitted > 1]
     squares, inverse = (np.concatenate(v) for v in zip(*made, strict=True))
@@ -33,8 +34,14 @@ def motion_cells(
     count = np.bincount(at).astype(float)
     columns = np.array([np.bincount(at, v) / count for v in each])
     ones = np.ones_like(count)
-    free = Cells(count, np.bincount(at, squares), ones, ones[None], np.array([-0.999]))
+    rounded = np.bincount(at, np.concatenate([_rounded(one) for one in seen]) * inverse) / count
+    base = ones + rounded
+    free = Cells(count, np.bincount(at, squares), base, ones[None], np.array([-0.999]))
     return free, columns
+
+
+def _rounded(one: Rows) -> np.ndarray:
+    return np.zeros(len(one.r)) if one.rounded is None else one.rounded
 
 
 def _whitened(one: Rows, noise: RandomWalk) -> tuple[np.ndarray, np.ndarray]:

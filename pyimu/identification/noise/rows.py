@@ -24,6 +24,9 @@ MOST_BRIDGED = 2e-3
 CLEARLY = 5.0
 """Times the reference's noise that a motion must have for a row's to be known to a fifth."""
 
+CHANGES = 0.25
+"""Steps by which a rounded value changes where it does; between samples of its own it is drawn."""
+
 SHORTEST = 256
 """Rows of a stretch without gap that gives a spectrum."""
 
@@ -31,7 +34,8 @@ SHORTEST = 256
 @dataclass(frozen=True)
 class Rows:
     """Residual ``r`` (n,) of one axis at ``time`` (n,) s, sampled every ``h`` s where nothing is
-    missing; ``x`` (n,) is the axis's own input and ``slope`` (n,) its rate.
+    missing; ``x`` (n,) is the axis's own input and ``slope`` (n,) its rate, ``rounded`` (n,) the
+    variance of what rounding did to a row of the reference and not to the one before.
 
     The first ``fitted`` rows were fitted, those after them held out. ``averaged`` says that each is
     the mean over ``h`` s.
@@ -44,6 +48,7 @@ class Rows:
     h: float
     fitted: int
     averaged: bool = False
+    rounded: np.ndarray | None = None
 
     @property
     def steps(self) -> np.ndarray:
@@ -53,7 +58,9 @@ class Rows:
     def seen(self) -> Rows:
         """The rows that were fitted."""
         n = self.fitted
-        return Rows(self.time[:n], self.r[:n], self.x[:n], self.slope[:n], self.h, n)
+        rounded = None if self.rounded is None else self.rounded[:n]
+        each = self.time[:n], self.r[:n], self.x[:n], self.slope[:n]
+        return Rows(*each, self.h, n, rounded=rounded)
 
     def means(self, seconds: float) -> Rows:
         """Means over so many seconds of rows, as rows of their own."""
@@ -100,13 +107,24 @@ def rows_of(fit: Fit, held: tuple[Trial, ...]) -> dict[int, list[Rows]]:
 
 
 def _columns(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:
-    """Time, residual, own signal and its rate (m, 10) of the rows that count."""
+    """Time, residual, own signal, its rate and what rounding did to it (m, 13) of the rows that
+    count.
+    """
     u, own = reference_input(trial, state), OWN[trial.kind]
     rate = COLUMNS[KINDS[trial.kind].own_rate]
     moves = _moves(trial, u[:, own])
     x, slope = (np.where(moves, u[:, c], 0.0) for c in (own, rate))
     values = (trial.time[:, None], residual(sensor, trial, state), x, slope)
-    return in_band(trial, np.column_stack(values))
+    return in_band(trial, np.column_stack((*values, _rounded(trial, u[:, own]))))
+
+
+def _rounded(trial: Trial, x: np.ndarray) -> np.ndarray:
+    """Variance (n, 3) of what is new in the rounding of a measured reference ``x`` (n, 3): a digit
+    that stays keeps its error, one that changes has another, which is even over a step.
+    """
+    steps = np.array(trial.digits)
+    changes = np.abs(np.diff(x, axis=0, prepend=x[:1])) > CHANGES * steps
+    return np.where(changes, steps**2 / 12.0, 0.0)
 
 
 def _moves(trial: Trial, x: np.ndarray) -> np.ndarray:
@@ -120,5 +138,6 @@ def _moves(trial: Trial, x: np.ndarray) -> np.ndarray:
 
 
 def _axis(made: np.ndarray, i: int, h: float, fitted: int) -> Rows:
-    time, r, x, slope = (np.ascontiguousarray(made[:, c]) for c in (0, 1 + i, 4 + i, 7 + i))
-    return Rows(time, r, x, slope, h, fitted)
+    columns = (0, 1 + i, 4 + i, 7 + i, 10 + i)
+    time, r, x, slope, rounded = (np.ascontiguousarray(made[:, c]) for c in columns)
+    return Rows(time, r, x, slope, h, fitted, rounded=rounded if rounded.any() else None)

@@ -21,6 +21,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from pyimu.identification.fit.damping import damping
+from pyimu.identification.fit.digits import may_be_rounding
 from pyimu.identification.fit.interpolated import TAPS, delayed
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.align import SIGNIFICANT, fitted_structure
@@ -107,11 +108,17 @@ class Lag:
 def without_filter(trial: Trial, sensor: Sensor) -> Undo | None:
     """What takes a filter out of the reference of a trial's log; None where it is behind none."""
     found = _filter(trial, sensor) if _may_be(trial) else None
-    if found is None:
+    if found is None or _is_rounding(trial, found):
         return None
     if isinstance(found, Lag):
         return partial(unlagged, lag=found.size, motion=in_own_band(trial).band_hz)
     return partial(unsmoothed, smoothing=found)
+
+
+def _is_rounding(trial: Trial, found: Filter) -> bool:
+    """Whether a filter changes no more than the rounding of the reference's numbers may."""
+    x = trial.u[:, OWN[trial.kind]]
+    return may_be_rounding(x - found.seen(x, trial.h, None), x, trial.digits)
 
 
 def _may_be(trial: Trial) -> bool:

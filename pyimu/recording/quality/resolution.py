@@ -79,6 +79,14 @@ def comb_step(values: np.ndarray) -> float | None:
     return None
 
 
+def last_digit(values: np.ndarray) -> float:
+    """The step to which the numbers of a signal (n,) were rounded, 0 where none is seen. Few levels
+    show none: a table that somebody set has those that it was set to.
+    """
+    many = len(_levels(values[np.isfinite(values)])) >= LEAST_LEVELS
+    return (comb_step(values) or 0.0) if many else 0.0
+
+
 def resolution(values: np.ndarray) -> float:
     """The distance at which two of ``values`` (n,) are told apart: the step of their comb, or else
     the smallest that there is between any two.
