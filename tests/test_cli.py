@@ -22,7 +22,7 @@ from pyimu.cli.logs import EXIT_CODES
 from pyimu.cli.memory import keep_freed
 from pyimu.cli.options import complete_part
 from pyimu.fmu import simulate
-from pyimu.identification.verdict import VERDICTS
+from pyimu.identification.verdict.verdict import VERDICTS
 
 RATE = 50.0
 ROWS = 3000

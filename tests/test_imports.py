@@ -9,6 +9,9 @@ from places import CHECKOUT
 
 PACKAGE = CHECKOUT / "pyimu"
 
+ORDERED = ("pyimu", "pyimu.identification")
+"""Folders of whose rooms CONTRIBUTING.md has a line each, in this order."""
+
 LATE = {
     "pyimu.cli",
     "pyimu.cli.bugs",
@@ -82,16 +85,23 @@ def edges():
     }
 
 
-def declared_order():
-    """The groups of rooms, from the bottom to the top, that CONTRIBUTING.md says."""
+def declared_order(folder):
+    """The groups of rooms of a folder, from the bottom to the top, that CONTRIBUTING.md says."""
     text = (CHECKOUT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    (line,) = re.findall(r"^    (\S.* -> .*)$", text, re.MULTILINE)
+    lines = re.findall(r"^    (\S.* -> .*)$", text, re.MULTILINE)
+    line = dict(zip(ORDERED, lines, strict=True))[folder]
     return [[room.strip() for room in group.strip(" ()").split("|")] for group in line.split("->")]
 
 
-def room(module):
-    """The folder or the file at the top of the package; of its own names, ``pyimu``."""
-    return (module.split(".") + ["pyimu"])[1]
+def room(module, folder):
+    """The folder or the file in ``folder`` that has a module; the folder's own names have its."""
+    inside = folder.rpartition(".")[2] if module == folder else module.removeprefix(f"{folder}.")
+    return inside.split(".")[0]
+
+
+def modules_of(edges, folder):
+    """What lies in a folder; its own names are among it where they are from elsewhere."""
+    return {m for m in edges if m.startswith(f"{folder}.") or (m == folder and edges[m])}
 
 
 def grouped(edges, key):
@@ -113,18 +123,22 @@ def circle(groups):
     return None
 
 
-def test_the_order_names_every_room(edges):
-    rooms = [name for group in declared_order() for name in group]
-    assert sorted(rooms) == sorted({room(module) for module in edges})
+@pytest.mark.parametrize("folder", ORDERED)
+def test_the_order_names_every_room(edges, folder):
+    rooms = [name for group in declared_order(folder) for name in group]
+    assert sorted(rooms) == sorted({room(module, folder) for module in modules_of(edges, folder)})
 
 
-def test_rooms_import_only_downwards(edges):
-    level = {name: i for i, group in enumerate(declared_order()) for name in group}
+@pytest.mark.parametrize("folder", ORDERED)
+def test_rooms_import_only_downwards(edges, folder):
+    level = {name: i for i, group in enumerate(declared_order(folder)) for name in group}
+    modules = modules_of(edges, folder)
     upwards = [
         f"{module} imports {name}"
-        for module, names in edges.items()
-        for name in names
-        if room(name) != room(module) and level[room(name)] >= level[room(module)]
+        for module in modules
+        for name in edges[module] & modules
+        if room(name, folder) != room(module, folder)
+        and level[room(name, folder)] >= level[room(module, folder)]
     ]
     assert not upwards
 

@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 
 from pyimu.errors import Finding, UserError
-from pyimu.identification.clock_or_effect import likelier_clock
 from pyimu.identification.conclude import conclude, weightless
 from pyimu.identification.fit.keys import Coefficient, Key, coefficient_of
 from pyimu.identification.fit.reduction import STRUCTURE
@@ -23,18 +22,17 @@ from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.memory import less_than_memory, remembered
 from pyimu.identification.formula.search import Look, look
-from pyimu.identification.gain_or_scale import (
-    held_shares,
-    let_go,
-    names_gain,
-    with_scale_held,
+from pyimu.identification.found.made_with import called
+from pyimu.identification.logs.thermometer import late_thermometers
+from pyimu.identification.logs.trials import (
+    SHORTEST,
+    Together,
+    aligned_trials,
+    clocks_of,
+    has_reference,
+    prepared,
 )
-from pyimu.identification.instead import (
-    formula_less_than_noise,
-    less_than_noise,
-    less_than_rounding,
-)
-from pyimu.identification.made_with import called
+from pyimu.identification.logs.vibration import lines, vibrations
 from pyimu.identification.reference.align import in_band_of
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.gravity import few, rest_trials
@@ -46,18 +44,20 @@ from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.reference.unfiltered import unfiltered_logs, with_sharp_places
 from pyimu.identification.reference.upright import with_upright_places
 from pyimu.identification.result import Closed
+from pyimu.identification.rivals.clock_or_effect import likelier_clock
+from pyimu.identification.rivals.gain_or_scale import (
+    held_shares,
+    let_go,
+    names_gain,
+    with_scale_held,
+)
+from pyimu.identification.rivals.instead import (
+    formula_less_than_noise,
+    less_than_noise,
+    less_than_rounding,
+)
 from pyimu.identification.search.ceiling import CEILING
 from pyimu.identification.search.forward import Investigation, investigate
-from pyimu.identification.thermometer import late_thermometers
-from pyimu.identification.trials import (
-    SHORTEST,
-    Together,
-    aligned_trials,
-    clocks_of,
-    has_reference,
-    prepared,
-)
-from pyimu.identification.vibration import lines, vibrations
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.part_file import part_names

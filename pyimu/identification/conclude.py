@@ -10,38 +10,35 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import Finding
-from pyimu.identification.advice import advice
-from pyimu.identification.as_part import SENSORS, as_part
-from pyimu.identification.by_attitude import settled
-from pyimu.identification.can_tell import rows_fitted, shows_anything, unfit
-from pyimu.identification.clocks import or_gain, taken_out, undone
-from pyimu.identification.confounds import what_no_log_tells_apart
-from pyimu.identification.declared import changed_noise, drifting, released
-from pyimu.identification.estimated import estimated
-from pyimu.identification.exhibits import Exhibits, exhibits_of
-from pyimu.identification.fates import Fate, fates
+from pyimu.identification.errors.by_attitude import settled
+from pyimu.identification.errors.heading_error import heading_rms
+from pyimu.identification.errors.held_out import at_rest, held_trials, scores
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.formula.memory import Remembered
 from pyimu.identification.formula.search import Look
-from pyimu.identification.found import Added, Changed, LogEntry
-from pyimu.identification.heading_error import heading_rms
-from pyimu.identification.held_out import at_rest, held_trials, scores
-from pyimu.identification.made_with import MadeWith
+from pyimu.identification.found.entries import Added, Changed, LogEntry
+from pyimu.identification.found.exhibits import Exhibits, exhibits_of
+from pyimu.identification.found.made_with import MadeWith
+from pyimu.identification.logs.overview import Overview, overview
 from pyimu.identification.magnetometer.examine import examined
 from pyimu.identification.magnetometer.model import magnetic, with_magnetometer
-from pyimu.identification.model_of import Found, Model
+from pyimu.identification.model.as_part import SENSORS, as_part
+from pyimu.identification.model.estimated import estimated
+from pyimu.identification.model.model_of import Found, Model
+from pyimu.identification.model.unshown import with_unshown_held
 from pyimu.identification.noise.named import Noise, noise_of
-from pyimu.identification.overview import Overview, overview
-from pyimu.identification.ranges import beyond, set_to_zero
+from pyimu.identification.noise.rounding import is_coarse
+from pyimu.identification.plan.advice import advice
 from pyimu.identification.reference.gravity import few
 from pyimu.identification.reference.order import other_order
-from pyimu.identification.references import references
+from pyimu.identification.reference.scales import findings_of as scales_found
+from pyimu.identification.reference.scales import scales_of
+from pyimu.identification.report.clocks import or_gain, taken_out, undone
+from pyimu.identification.report.references import references
 from pyimu.identification.result import Closed
-from pyimu.identification.rounding import is_coarse
-from pyimu.identification.scales import findings_of as scales_found
-from pyimu.identification.scales import scales_of
+from pyimu.identification.rivals.confounds import what_no_log_tells_apart
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.forward import Investigation, Refused
@@ -49,9 +46,12 @@ from pyimu.identification.search.inexact import left_by_forms
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.rounded import OF_DIGITS
 from pyimu.identification.third_sensor import and_magnetometer, of_magnetometer
-from pyimu.identification.unshown import with_unshown_held
-from pyimu.identification.verdict import Evidence, Verdict, verdict
-from pyimu.identification.visibility import visibility
+from pyimu.identification.verdict.can_tell import rows_fitted, shows_anything, unfit
+from pyimu.identification.verdict.declared import changed_noise, drifting, released
+from pyimu.identification.verdict.fates import Fate, fates
+from pyimu.identification.verdict.ranges import beyond, set_to_zero
+from pyimu.identification.verdict.verdict import Evidence, Verdict, verdict
+from pyimu.identification.verdict.visibility import visibility
 from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part

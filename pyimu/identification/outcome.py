@@ -7,19 +7,19 @@ from typing import Any
 
 from pyimu.errors import Finding
 from pyimu.files import plain
-from pyimu.identification.advice import Advice
-from pyimu.identification.estimated import Estimated
-from pyimu.identification.exhibits import Exhibits
-from pyimu.identification.fates import Fate
 from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.formula.formula import Formula
-from pyimu.identification.found import Added, AtRest, Changed, Errors, LogEntry, Visibility
-from pyimu.identification.made_with import MadeWith
+from pyimu.identification.found.entries import Added, AtRest, Changed, Errors, LogEntry, Visibility
+from pyimu.identification.found.exhibits import Exhibits
+from pyimu.identification.found.made_with import MadeWith
 from pyimu.identification.magnetometer.examine import Examined
 from pyimu.identification.magnetometer.words import as_dict as magnetic
+from pyimu.identification.model.estimated import Estimated
+from pyimu.identification.model.simulated import Simulated
+from pyimu.identification.plan.advice import Advice
 from pyimu.identification.search.forward import Refused
 from pyimu.identification.search.leftover import Unexplained
-from pyimu.identification.simulated import Simulated
+from pyimu.identification.verdict.fates import Fate
 from pyimu.model.kinds import MAGNETOMETER
 from pyimu.model.part import Part
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pyimu.identification.magnetometer.examine import FOUND, UNCONFIRMED, UNEVEN, Examined
 from pyimu.identification.magnetometer.words import remark
 from pyimu.identification.result import Closed
-from pyimu.identification.verdict import FAR, Verdict
+from pyimu.identification.verdict.verdict import FAR, Verdict
 from pyimu.model.kinds import MAGNETOMETER
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import number

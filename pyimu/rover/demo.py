@@ -19,12 +19,12 @@ from matplotlib.figure import Figure
 
 from pyimu.attitude import run
 from pyimu.files import whole
-from pyimu.identification.attitude_error import attitude_error
 from pyimu.identification.close import close
-from pyimu.identification.put_in import put_in
+from pyimu.identification.errors.attitude_error import attitude_error
+from pyimu.identification.model.simulated import Simulated
 from pyimu.identification.report.deliver import check_delivery
+from pyimu.identification.report.put_in import put_in
 from pyimu.identification.result import Closed
-from pyimu.identification.simulated import Simulated
 from pyimu.model.part import Part
 from pyimu.model.part_file import part
 from pyimu.model.simulate import simulate

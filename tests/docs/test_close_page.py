@@ -11,7 +11,7 @@ from pyimu.cli.logs import EXIT_CODES
 from pyimu.identification.fit.trial import HELD_OUT
 from pyimu.identification.noise.choose import MOST
 from pyimu.identification.search.screen import FALSE_ALARM, SHARE
-from pyimu.identification.verdict import FAR, VERDICTS
+from pyimu.identification.verdict.verdict import FAR, VERDICTS
 
 TEXT = (CHECKOUT / "docs" / "close.md").read_text(encoding="utf-8")
 TABLE = re.search(r"<!-- verdicts -->\n(.*?)<!-- end -->", TEXT, re.DOTALL).group(1)

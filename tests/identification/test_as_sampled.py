@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from loop_cases import inputs, trial
 
-from pyimu.identification.fates import fates
-from pyimu.identification.rounding import rounding
+from pyimu.identification.noise.rounding import rounding
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
 from pyimu.identification.search.ceiling import piled
 from pyimu.identification.search.forward import investigate
+from pyimu.identification.verdict.fates import fates
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.recording.quality.resolution import comb_step, is_written

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from pyimu.attitude.error import AttitudeError
-from pyimu.identification import by_attitude
-from pyimu.identification.by_attitude import CHANCE, _by_chance
 from pyimu.identification.close import close
-from pyimu.identification.held_out import WINDOW
+from pyimu.identification.errors import by_attitude
+from pyimu.identification.errors.by_attitude import CHANCE, _by_chance
+from pyimu.identification.errors.held_out import WINDOW
 from pyimu.recording.recording import Recording
 
 RUNS = 400

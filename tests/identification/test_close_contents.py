@@ -18,11 +18,11 @@ from markupsafe import escape
 from numpy.testing import assert_allclose, assert_array_equal
 
 from pyimu.identification.close import close
-from pyimu.identification.confounds import what_no_log_tells_apart
-from pyimu.identification.exhibits import Trace
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.found.exhibits import Trace
 from pyimu.identification.report import pictures
 from pyimu.identification.report.page import page as page_of
+from pyimu.identification.rivals.confounds import what_no_log_tells_apart
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part_file import part
 from pyimu.model.sensor import Sensor

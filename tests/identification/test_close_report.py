@@ -17,22 +17,22 @@ from report_pages import alone
 from pyimu.errors import Finding, UserError
 from pyimu.files import staged
 from pyimu.identification import conclude
-from pyimu.identification.as_part import as_part
 from pyimu.identification.close import close
-from pyimu.identification.estimated import Estimated
-from pyimu.identification.exhibits import Trace, exhibits_of, noise_density
-from pyimu.identification.exhibits import density as density_of
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.response import is_step
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.found import Added
+from pyimu.identification.found.entries import Added
+from pyimu.identification.found.exhibits import Trace, exhibits_of, noise_density
+from pyimu.identification.found.exhibits import density as density_of
+from pyimu.identification.model.as_part import as_part
+from pyimu.identification.model.estimated import Estimated
 from pyimu.identification.report import deliver, pictures
 from pyimu.identification.report.coefficients import rows as coefficient_rows
 from pyimu.identification.report.page import page as page_of
 from pyimu.identification.report.words import headline
 from pyimu.identification.search.leftover import Unexplained
-from pyimu.identification.verdict import VERDICTS as ALL_VERDICTS
+from pyimu.identification.verdict.verdict import VERDICTS as ALL_VERDICTS
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import Part
 from pyimu.model.part_file import load_part, part, save_part

@@ -11,9 +11,9 @@ import pyimu
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.place import SCALE, UNKNOWN, Place
 from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.logs.trials import BAND_SHARE
 from pyimu.identification.reference.place import BEYOND
 from pyimu.identification.reference.upright import with_upright_places
-from pyimu.identification.trials import BAND_SHARE
 from pyimu.model.kinds import OWN
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor

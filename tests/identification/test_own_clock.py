@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation, RotationSpline
 
 import pyimu
-from pyimu.identification import by_attitude
+from pyimu.identification.errors import by_attitude
 from pyimu.recording.recording import Recording
 
 H, NOISE = 0.005, 2e-3

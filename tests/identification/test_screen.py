@@ -30,7 +30,7 @@ from pyimu.identification.search.screen import (
     fitted_gain,
     screen,
 )
-from pyimu.identification.visibility import _of
+from pyimu.identification.verdict.visibility import _of
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import magnitudes

@@ -6,7 +6,7 @@ import traps
 
 from pyimu.identification.close import undeclared
 from pyimu.identification.fit.trial import gyro_trial
-from pyimu.identification.trials import aligned_trials
+from pyimu.identification.logs.trials import aligned_trials
 from pyimu.recording.recording import Recording
 
 

@@ -12,11 +12,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pyimu.identification.fit.score import ErrorSums
-from pyimu.identification.found import Added, Changed, Errors
-from pyimu.identification.ranges import beyond
+from pyimu.identification.found.entries import Added, Changed, Errors
 from pyimu.identification.search.forward import Refused
 from pyimu.identification.search.leftover import Unexplained
-from pyimu.identification.verdict import FAR, NO_EFFECT, SHORT, VERDICTS, Evidence, Verdict, verdict
+from pyimu.identification.verdict.ranges import beyond
+from pyimu.identification.verdict.verdict import (
+    FAR,
+    NO_EFFECT,
+    SHORT,
+    VERDICTS,
+    Evidence,
+    Verdict,
+    verdict,
+)
 from pyimu.recording.quality.inspect import beyond_range
 from pyimu.recording.recording import Recording
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation, RotationSpline
 
 import pyimu
-from pyimu.identification.vibration import lines, vibrations
+from pyimu.identification.logs.vibration import lines, vibrations
 from pyimu.recording.recording import Recording
 
 TIME = np.arange(0.0, 60.0, 0.01)

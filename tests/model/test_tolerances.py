@@ -13,7 +13,7 @@ from scipy import stats
 
 from pyimu import units
 from pyimu.errors import UserError
-from pyimu.identification.as_part import as_part
+from pyimu.identification.model.as_part import as_part
 from pyimu.model.part import Part
 from pyimu.model.part_file import part, part_names
 from pyimu.model.part_reader import parse_part

@@ -5,7 +5,7 @@ import pytest
 
 import pyimu
 from pyimu.errors import Finding
-from pyimu.identification.ranges import set_to_zero
+from pyimu.identification.verdict.ranges import set_to_zero
 from pyimu.recording.quality.inspect import inspect
 from pyimu.recording.quality.zeroed import FALSE_ALARMS, least_size
 from pyimu.recording.recording import Recording

@@ -5,10 +5,10 @@ import pytest
 from markupsafe import Markup
 
 import pyimu
-from pyimu.identification.put_in import put_in
+from pyimu.identification.model.simulated import Simulated
 from pyimu.identification.report.page import page
+from pyimu.identification.report.put_in import put_in
 from pyimu.identification.search.choice import ALIKE
-from pyimu.identification.simulated import Simulated
 from pyimu.rover import demo
 from pyimu.rover.optical import WANDER
 

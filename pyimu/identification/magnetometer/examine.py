@@ -17,11 +17,11 @@ from scipy.stats import f as fisher
 from pyimu.attitude.calibration import MagnetometerCalibration, of_sensor
 from pyimu.attitude.magnetometer import magnetometer_of
 from pyimu.characterization.magnetometer.estimate import LEAST, WEAKEST
-from pyimu.identification.exhibits import Exhibits, Trace
+from pyimu.identification.errors.held_out import clock_of, log_state
 from pyimu.identification.fit.score import ErrorSums
 from pyimu.identification.fit.trial import HEAD, HELD_OUT
-from pyimu.identification.found import Errors
-from pyimu.identification.held_out import clock_of, log_state
+from pyimu.identification.found.entries import Errors
+from pyimu.identification.found.exhibits import Exhibits, Trace
 from pyimu.identification.magnetometer.fit import (
     BIAS,
     DEGREES,
@@ -35,8 +35,8 @@ from pyimu.identification.magnetometer.fit import (
     weakest,
 )
 from pyimu.identification.magnetometer.rows import FieldRows, field_rows
-from pyimu.identification.model_of import Found
-from pyimu.identification.verdict import FAR
+from pyimu.identification.model.model_of import Found
+from pyimu.identification.verdict.verdict import FAR
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
 from pyimu.silent import silent

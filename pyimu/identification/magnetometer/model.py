@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from pyimu.attitude.calibration import as_values
-from pyimu.identification.estimated import Estimated
 from pyimu.identification.magnetometer.examine import Examined
 from pyimu.identification.magnetometer.fit import BIAS, MATRIX, SHARED
+from pyimu.identification.model.estimated import Estimated
 from pyimu.model.catalogue import WHITE
 from pyimu.model.kinds import MAGNETOMETER
 from pyimu.model.part import Part

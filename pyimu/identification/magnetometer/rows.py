@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.characterization.magnetometer.estimate import TURN, fresh_rows
-from pyimu.identification.attitude_error import on_own_clock
+from pyimu.identification.errors.attitude_error import on_own_clock
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.sample_noise import quiet_noise
 from pyimu.recording.clock import runs

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pyimu.identification.found import Added, Changed
+from pyimu.identification.found.entries import Added, Changed
 from pyimu.identification.noise.choose import Chosen, State, Term, refined
 from pyimu.identification.noise.exact import AxisNoise
 from pyimu.identification.noise.explained import Explained

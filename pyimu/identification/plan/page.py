@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
-from pyimu.identification.as_part import SENSORS
+from pyimu.identification.model.as_part import SENSORS
 from pyimu.identification.plan.motions import Motion
 from pyimu.identification.plan.outcome import Log, Outcome, Pair, Predicted
 from pyimu.identification.plan.pictures import motion_picture

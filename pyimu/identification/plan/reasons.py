@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pyimu.identification.as_part import si_of
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.model.as_part import si_of
 from pyimu.identification.plan.choice import LONGEST
 from pyimu.identification.plan.goals import Goal, told
 from pyimu.identification.plan.information import Information

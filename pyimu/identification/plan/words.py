@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from pyimu.identification.as_part import SENSORS, si_of
+from pyimu.identification.model.as_part import SENSORS, si_of
 from pyimu.identification.plan.goals import told
 from pyimu.identification.plan.outcome import Outcome, Predicted
 from pyimu.model.catalogue import CATALOGUE

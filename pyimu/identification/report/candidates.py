@@ -7,12 +7,12 @@ from collections.abc import Iterable
 import numpy as np
 from markupsafe import Markup
 
-from pyimu.identification.as_part import SENSORS, si_of
-from pyimu.identification.exhibits import Exhibits
-from pyimu.identification.fates import Fate
-from pyimu.identification.found import Visibility
+from pyimu.identification.found.entries import Visibility
+from pyimu.identification.found.exhibits import Exhibits
+from pyimu.identification.model.as_part import SENSORS, si_of
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
+from pyimu.identification.verdict.fates import Fate
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.report.numbers import MISSING, joined, number
 from pyimu.report.page import Picture, Table, both, prose

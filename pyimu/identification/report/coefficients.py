@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyimu.identification.as_part import element, si_of
-from pyimu.identification.estimated import Estimated
+from pyimu.identification.model.as_part import element, si_of
+from pyimu.identification.model.estimated import Estimated
 from pyimu.identification.outcome import Outcome
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import AXES

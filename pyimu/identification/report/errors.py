@@ -6,10 +6,10 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from pyimu.identification.as_part import SENSORS
-from pyimu.identification.exhibits import Exhibits, Spectrum
 from pyimu.identification.fit.score import WINDOW
-from pyimu.identification.found import Errors
+from pyimu.identification.found.entries import Errors
+from pyimu.identification.found.exhibits import Exhibits, Spectrum
+from pyimu.identification.model.as_part import SENSORS
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
 from pyimu.identification.report.words import AS_SET_RIGHT, QUANTITIES, gravity_at_rest

@@ -9,10 +9,10 @@ import numpy as np
 from markupsafe import Markup, escape
 from scipy.spatial.transform import Rotation
 
-from pyimu.identification.as_part import SENSORS
-from pyimu.identification.found import LogEntry
+from pyimu.identification.found.entries import LogEntry
+from pyimu.identification.logs.overview import Overview
+from pyimu.identification.model.as_part import SENSORS
 from pyimu.identification.outcome import Outcome
-from pyimu.identification.overview import Overview
 from pyimu.identification.reference.align import SIGNIFICANT
 from pyimu.identification.report.errors import BESIDE
 from pyimu.identification.report.strips import lags, strips

@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup, escape
 
-from pyimu.identification.as_part import SENSORS, si_of
-from pyimu.identification.exhibits import MOST_AXES, Cloud, Comb
-from pyimu.identification.found import Added, Changed
+from pyimu.identification.found.entries import Added, Changed
+from pyimu.identification.found.exhibits import MOST_AXES, Cloud, Comb
 from pyimu.identification.magnetometer.words import notes as field_notes
+from pyimu.identification.model.as_part import SENSORS, si_of
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report import pictures
 from pyimu.identification.report.coefficients import rows
 from pyimu.identification.report.words import FEW, dependence, in_words
-from pyimu.identification.verdict import instead
+from pyimu.identification.verdict.verdict import instead
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.kinds import KINDS, MAGNETOMETER
 from pyimu.model.part import AXES

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from pyimu.identification.advice import Advice, Gain
-from pyimu.identification.as_part import SENSORS, si_of
+from pyimu.identification.model.as_part import SENSORS, si_of
 from pyimu.identification.outcome import Outcome
+from pyimu.identification.plan.advice import Advice, Gain
 from pyimu.identification.plan.words import lasting
 from pyimu.report.numbers import MISSING, joined, number, quantity
 from pyimu.report.page import Table, prose

@@ -6,7 +6,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from pyimu.identification.as_part import SENSORS
+from pyimu.identification.model.as_part import SENSORS
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report.candidates import fate_table, observability_table, screenings
 from pyimu.identification.report.coefficients import LEGEND

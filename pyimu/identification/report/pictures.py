@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pyimu.identification.exhibits import Cloud, Comb, Driver, Spectrum, Trace
+from pyimu.identification.found.exhibits import Cloud, Comb, Driver, Spectrum, Trace
 from pyimu.identification.report.strips import own_time, side_by_side
 from pyimu.identification.search.screen import Screening
 from pyimu.model.part import AXES

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pyimu.identification.overview import Overview, Strip
+from pyimu.identification.logs.overview import Overview, Strip
 from pyimu.report.figures import AFTER, GREY, STYLE, svg_of
 
 PANEL = 1.15

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from pyimu.identification.as_part import SENSORS, si_of
+from pyimu.identification.model.as_part import SENSORS, si_of
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report.coefficients import LEGEND, rows
 from pyimu.identification.report.next import gains

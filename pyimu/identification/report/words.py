@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from pyimu.identification.as_part import SENSORS, si_of
 from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.formula.effect import TERM, coefficients
 from pyimu.identification.formula.formula import Formula
-from pyimu.identification.found import Added, AtRest, Errors
+from pyimu.identification.found.entries import Added, AtRest, Errors
+from pyimu.identification.model.as_part import SENSORS, si_of
 from pyimu.identification.noise.jumps import SHAPES
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.search.leftover import Unexplained

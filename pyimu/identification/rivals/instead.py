@@ -14,7 +14,7 @@ from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.formula.search import Look
 from pyimu.identification.noise.jumps import likelihood_of
-from pyimu.identification.rounding import rounding
+from pyimu.identification.noise.rounding import rounding
 from pyimu.identification.search.forward import (
     AS_NOISE,
     AS_ROUNDING,

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.stats import chi2
 
-from pyimu.identification.fates import NOT_LOOKED_FOR, Fate
 from pyimu.identification.fit.score import WINDOW
-from pyimu.identification.found import Added, Changed, Errors
+from pyimu.identification.found.entries import Added, Changed, Errors
 from pyimu.identification.search.forward import AS_NOISE, AS_ROUNDING, Refused
 from pyimu.identification.search.judge import OF_REFERENCE
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.rounded import OF_DIGITS
+from pyimu.identification.verdict.fates import NOT_LOOKED_FOR, Fate
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.report.numbers import joined, number
 

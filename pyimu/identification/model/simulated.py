@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.files import plain
-from pyimu.identification.as_part import SENSORS
+from pyimu.identification.model.as_part import SENSORS
 from pyimu.report.lines import in_columns
 from pyimu.report.numbers import MISSING, number, pretty, unit_for, with_limits
 from pyimu.report.page import Picture, Table, prose

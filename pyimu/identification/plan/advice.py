@@ -17,14 +17,14 @@ import numpy as np
 from pyimu.brief import Brief
 from pyimu.errors import UserError
 from pyimu.files import plain
-from pyimu.identification.estimated import Estimated
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.mixture import REACH
 from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.normal import variances
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.found import Visibility
+from pyimu.identification.found.entries import Visibility
+from pyimu.identification.model.estimated import Estimated
 from pyimu.identification.plan.apart import separation
 from pyimu.identification.plan.information import Information, information, is_shaped
 from pyimu.identification.plan.motions import Limits, Motion, library

@@ -9,17 +9,17 @@ from typing import Any
 import numpy as np
 
 from pyimu.files import plain
-from pyimu.identification.confounds import what_no_log_tells_apart
 from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import with_prior
 from pyimu.identification.fit.keys import Coefficient, LogBias
 from pyimu.identification.fit.mixture import REACH
-from pyimu.identification.found import Added
+from pyimu.identification.found.entries import Added
+from pyimu.identification.model.unshown import OUTWEIGHED
 from pyimu.identification.noise.named import Noise
+from pyimu.identification.rivals.confounds import what_no_log_tells_apart
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.leftover import noise_figures
 from pyimu.identification.search.screen import fitted_dispersion
-from pyimu.identification.unshown import OUTWEIGHED
 from pyimu.model.catalogue import POWER_ON, WALK, WHITE
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part

@@ -6,14 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyimu.identification.as_part import unexamined_left_out
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.sample_noise import rest_density
+from pyimu.identification.logs.vibration import less_lines
+from pyimu.identification.model.as_part import unexamined_left_out
 from pyimu.identification.noise.named import Noise
-from pyimu.identification.rounding import Rounding, rounding
+from pyimu.identification.noise.rounding import Rounding, rounding
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.leftover import NoiseFigure, noise_figures
-from pyimu.identification.vibration import less_lines
 from pyimu.model.catalogue import POWER_ON, WALK, WHITE
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor

@@ -11,19 +11,19 @@ import numpy as np
 from scipy.stats import ttest_1samp
 
 from pyimu.attitude.error import AttitudeError
-from pyimu.identification.fates import TAKEN_BACK
+from pyimu.identification.errors.heading_error import FAR, with_better_heading
+from pyimu.identification.errors.held_out import WINDOW, attitudes, worlds
 from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.score import tally
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.heading_error import FAR, with_better_heading
-from pyimu.identification.held_out import WINDOW, attitudes, worlds
-from pyimu.identification.model_of import Found, Model, model_of
+from pyimu.identification.model.model_of import Found, Model, model_of
 from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.forward import Investigation, less_of_baseline, without
 from pyimu.identification.search.screen import fitted_dispersion
-from pyimu.identification.verdict import WORSE
+from pyimu.identification.verdict.fates import TAKEN_BACK
+from pyimu.identification.verdict.verdict import WORSE
 from pyimu.model.catalogue import WALK
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording

@@ -9,12 +9,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.files import plain
+from pyimu.identification.errors.held_out import clock_of, log_state
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.keys import LogPlace
 from pyimu.identification.fit.noise_floor import reference_variance
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.held_out import clock_of, log_state
-from pyimu.identification.scales import Scale
+from pyimu.identification.reference.scales import Scale
 from pyimu.identification.search.forward import Investigation
 from pyimu.recording.recording import Recording
 

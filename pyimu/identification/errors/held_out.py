@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.attitude.error import AttitudeError, error_against
-from pyimu.identification.attitude_error import Compared, beside
+from pyimu.identification.errors.attitude_error import Compared, beside
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.left_open import Open, left_open, what_is_open
@@ -27,7 +27,7 @@ from pyimu.identification.fit.score import (
 )
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.identification.found import AtRest, Errors, LogEntry
+from pyimu.identification.found.entries import AtRest, Errors, LogEntry
 from pyimu.identification.reference.level import Leaning, leaning
 from pyimu.identification.search.belief import FARTHEST, most
 from pyimu.identification.search.forward import Investigation

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 import numpy as np
 
 from pyimu.errors import Finding
+from pyimu.identification.errors.held_out import clock_of
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.held_out import clock_of
-from pyimu.identification.scales import POSITIONS_SCALE
+from pyimu.identification.reference.scales import POSITIONS_SCALE
 from pyimu.identification.search.forward import Investigation
 from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
 from pyimu.recording.reference.unlagged import ADAPTS, HIGHEST, LAG

@@ -11,7 +11,7 @@ import numpy as np
 from pyimu.brief import Brief
 from pyimu.files import plain
 from pyimu.identification.fit.score import ErrorSums
-from pyimu.identification.overview import Overview
+from pyimu.identification.logs.overview import Overview
 from pyimu.model.kinds import MAGNETOMETER
 
 

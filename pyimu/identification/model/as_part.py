@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyimu.identification.estimated import Estimated
 from pyimu.identification.fit.mixture import LEVEL
+from pyimu.identification.model.estimated import Estimated
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part import Part
 from pyimu.model.part_value import EXACT, PartValue, with_values

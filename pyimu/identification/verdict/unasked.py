@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pyimu.identification.fit.surroundings import PLACE
 from pyimu.identification.fit.trial import known_to_all
-from pyimu.identification.rounding import HIDDEN, is_read, shows_samples
+from pyimu.identification.noise.rounding import HIDDEN, is_read, shows_samples
 from pyimu.identification.search.candidates import absent, has_columns
 from pyimu.identification.search.forward import Investigation
 from pyimu.model.effect import Effect

@@ -9,13 +9,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyimu.identification.fates import TURNED_BACK
 from pyimu.identification.fit.columns import residual
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.score import WINDOW, held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.clock import shifted
 from pyimu.identification.search.forward import Investigation, without
+from pyimu.identification.verdict.fates import TURNED_BACK
 from pyimu.recording.reference.rate import VERTICAL
 
 FAR = 1.2

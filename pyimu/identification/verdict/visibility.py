@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.identification.found import Visibility
-from pyimu.identification.rounding import is_read
+from pyimu.identification.found.entries import Visibility
+from pyimu.identification.noise.rounding import is_read
 from pyimu.identification.search.candidates import has_columns
 from pyimu.identification.search.forward import Investigation
-from pyimu.identification.unasked import UNEXCITED, why_unasked
+from pyimu.identification.verdict.unasked import UNEXCITED, why_unasked
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
 from pyimu.model.typical import CLASSES, magnitudes

@@ -9,7 +9,7 @@ import numpy as np
 from pyimu.identification.fit.columns import in_band, residual
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.model_of import Found
+from pyimu.identification.model.model_of import Found
 from pyimu.identification.reference.belongs import too_little
 from pyimu.identification.reference.clock import moves
 from pyimu.identification.search.forward import Investigation

@@ -10,7 +10,7 @@ import numpy as np
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.trial import Trial, counted
 from pyimu.identification.fit.whiten import LEAST_VARIANCE, RandomWalk
-from pyimu.identification.found import Added
+from pyimu.identification.found.entries import Added
 from pyimu.identification.noise.cells import Cells
 from pyimu.identification.noise.rows import rows_of
 from pyimu.identification.noise.spectrum import Bands, bands

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from pyimu.errors import Finding
-from pyimu.identification.as_part import SENSORS
-from pyimu.identification.instead import DEAD_ZONES
+from pyimu.identification.model.as_part import SENSORS
+from pyimu.identification.rivals.instead import DEAD_ZONES
 from pyimu.model.kinds import KINDS
 from pyimu.report.numbers import quantity
 

@@ -26,7 +26,7 @@ from pyimu.identification.fit.place import SCALE, SCALED
 from pyimu.identification.fit.reduction import GAIN
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.place import with_force
-from pyimu.identification.scales import with_gains
+from pyimu.identification.reference.scales import with_gains
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.screen import fitted_dispersion
 from pyimu.model.kinds import OWN

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from pyimu.identification.as_part import SENSORS, si_of
+from pyimu.identification.model.as_part import SENSORS, si_of
+from pyimu.identification.model.simulated import PutIn
 from pyimu.identification.outcome import Outcome
-from pyimu.identification.simulated import PutIn
 from pyimu.model.catalogue import CATALOGUE, POWER_ON
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
