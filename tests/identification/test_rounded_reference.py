@@ -10,21 +10,21 @@ from pyimu.recording.recording import Recording
 H, DIGIT, NOISE = 0.01, np.radians(0.1), np.radians(0.05)
 
 
-def table(seed, minutes=5.0):
-    """Rates (n, 3) of a table that turns at three speeds, over and over, about each axis in turn,
-    with ramps of half a second between and rests of two.
+def table(seed, count, minutes=5.0):
+    """Rates (n, 3) of a table that turns at ``count`` speeds, over and over, about each axis in
+    turn, with ramps of half a second between and rests of two.
     """
-    speeds, out = np.radians(np.random.default_rng(seed).uniform(-100.0, 100.0, 3)), []
+    speeds, out = np.radians(np.random.default_rng(seed).uniform(-100.0, 100.0, count)), []
     while sum(map(len, out)) < minutes * 60 / H:
         stops = np.repeat([0.0, *speeds, 0.0], 2)
-        at = np.cumsum([0.0, 2.0, *(3 * (0.5, 3.0)), 0.5, 2.0])
+        at = np.cumsum([0.0, 2.0, *(count * (0.5, 3.0)), 0.5, 2.0])
         one = np.interp(np.arange(0.0, at[-1], H), at, stops)
         out.append(one[:, None] * np.eye(3)[len(out) % 3])
     return np.concatenate(out)
 
 
-def log(seed, digit):
-    rate = table(seed)
+def log(seed, digit, count=3):
+    rate = table(seed, count)
     noise = NOISE * np.random.default_rng(seed + 1).standard_normal(rate.shape)
     shown = np.rint(rate / digit) * digit if digit else rate
     time = H * np.arange(len(rate))
@@ -32,7 +32,7 @@ def log(seed, digit):
 
 
 def test_the_last_digit_is_seen_and_the_speeds_that_somebody_set_are_none():
-    rate = table(3)[:, 0]
+    rate = table(3, 3)[:, 0]
     assert last_digit(np.rint(rate / DIGIT) * DIGIT) == pytest.approx(DIGIT, rel=1e-9)
     assert last_digit(rate + 1e-9 * np.random.default_rng(1).standard_normal(len(rate))) == 0.0
     assert last_digit(np.repeat(np.radians([0.0, 10.0, 20.0, 50.0, 100.0]), 1000)) == 0.0
@@ -46,10 +46,10 @@ def test_what_rounding_makes_is_no_effect_and_no_noise_that_follows_the_motion(s
 
 
 def test_an_effect_larger_than_rounding_is_found_all_the_same():
-    """A cubic scale factor of twenty digits at the fastest speed."""
-    rounded = log(13, DIGIT)
+    """A cubic scale factor of ten digits at the fastest speed."""
+    rounded = log(13, DIGIT, count=12)
     rate = rounded.ref_rate
-    bent = 20.0 * DIGIT * (rate / np.abs(rate).max()) ** 3
+    bent = 10.0 * DIGIT * (rate / np.abs(rate).max()) ** 3
     gyro = rounded.gyro + bent
     closed = pyimu.close(Recording.from_arrays(time=rounded.time, gyro=gyro, ref_rate=rate))
     assert [a.effect for a in closed.added] == ["scale_factor_cubic"]
