@@ -1,5 +1,7 @@
 """The density of a sensor's white noise beside a reference attitude, as its rests show it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.signal import butter, lfilter
@@ -72,3 +74,15 @@ def test_noise_of_one_level_is_read_as_it_is(louder):
 def test_the_part_has_the_density_that_its_filter_leaves():
     closed = pyimu.close(log(5, 42.0))
     assert closed.after.gyro.values["angle_random_walk"]["N"] == pytest.approx(N, rel=0.3)
+
+
+def test_seconds_at_a_limit_show_no_noise():
+    """Of the ten of forty in which the gyro stands at it. Third differences of the quietest second
+    or more know the noise to so many standard errors.
+    """
+    held = np.array(log(3, rest=0.0).gyro)
+    limit = np.abs(held).max()
+    held[TIME < 10.0] = limit
+    trial = gyro_trial(replace(log(3, rest=0.0), gyro=held))
+    found = rest_noise(trial) * H**0.5 / N
+    np.testing.assert_allclose(found, 1.0, atol=5 * np.sqrt(CORRELATED / 2 * H))

@@ -215,6 +215,13 @@ def test_clipping_is_found_with_its_level(sigma):
     )
 
 
+def test_a_signal_that_is_at_one_limit_or_the_other_most_of_the_time_is_clipped():
+    """Two thirds of a sine of twice the limit lie at it: the extremes are all that is quiet."""
+    t = np.linspace(0.0, 40.0 * np.pi, 20_000)
+    values = np.clip(2.0 * np.sin(t) + noise()[: len(t), 0], -1.0, 1.0)
+    assert clipping_level(values) == (-1.0, 1.0)
+
+
 def test_clipping_of_one_side():
     assert clipping_level(np.minimum(driven()[:, 0], 2.5))[0] is None
 

@@ -42,11 +42,25 @@ def rest_noise(trial: Trial) -> np.ndarray:
     """Standard deviation (3,) of the white noise of the samples, in the quietest seconds."""
     if trial.reduction is not None:
         return trial.reduction.sample_std
-    found = white_noise(trial, trial.y)
+    found = quiet_noise(trial.y, _within_limits(trial), trial.h)
+    if not np.isfinite(found).all():
+        found = white_noise(trial, trial.y)
     for k, column in enumerate(trial.y.T):
         beside = _beside_zeros(column, trial.row_segments)
         found[k] = found[k] if beside is None else beside
     return found
+
+
+def _within_limits(trial: Trial) -> list[tuple[int, int]]:
+    """The rows of a trial in which no sample is at a limit, where there is no noise."""
+    at_limit = _clipped(trial)
+    if not at_limit.any():
+        return trial.row_segments
+    return [(a + i, a + j) for a, b in trial.row_segments for i, j in runs(~at_limit[a:b])]
+
+
+def _clipped(trial: Trial) -> np.ndarray:
+    return np.any([clipped(trial.y[:, i]) for i in trial.axes], axis=0)
 
 
 def _beside_zeros(values: np.ndarray, segments: list[tuple[int, int]]) -> float | None:
@@ -165,5 +179,5 @@ def _quietest_of_white(rows: int, columns: int) -> float:
 
 def without_information(trial: Trial) -> np.ndarray:
     """Mask (n,) of the samples that are left out, or at a limit."""
-    bad = np.any([clipped(trial.y[:, i]) for i in trial.axes], axis=0)
+    bad = _clipped(trial)
     return bad if trial.left_out is None else bad | trial.left_out

@@ -132,11 +132,20 @@ def _plateau(values: np.ndarray, sign: int) -> np.ndarray:
         return none
     if below == 0 and count <= PILE_UP * _at_next_level(v[v < top - width]):
         return none
-    deep = inside[:-2] & inside[1:-1] & inside[2:]
+    deep = _within(inside)
     if not deep.any():
         return none
     curvature = np.abs(np.diff(v, 2))
-    return inside if np.median(curvature[deep]) < QUIET * scatter(curvature[~deep], 0.25) else none
+    # What lies at the other extreme may be as quiet.
+    low = np.nanmin(v)
+    elsewhere = ~(deep | _within(v <= low + PLATEAU * (np.nanmedian(v) - low)))
+    quiet = QUIET * scatter(curvature[elsewhere], 0.25)
+    return inside if np.median(curvature[deep]) < quiet else none
+
+
+def _within(rows: np.ndarray) -> np.ndarray:
+    """Marks (n - 2,) of the rows of which those on either side are such ``rows`` (n,), too."""
+    return rows[:-2] & rows[1:-1] & rows[2:]
 
 
 def _at_next_level(rest: np.ndarray) -> int:
