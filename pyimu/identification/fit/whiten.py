@@ -73,6 +73,17 @@ def _filtered(values, gain, scale, level, out):
 
 
 @njit(cache=True)
+def _power(values, gain, scale):
+    """Sum of the squares of the innovations of ``values`` (m,)."""
+    level, total = 0.0, 0.0
+    for k in range(len(values)):
+        v = values[k] - level
+        level += gain[k] * v
+        total += (v * scale[k]) ** 2
+    return total
+
+
+@njit(cache=True)
 def _predicted(values, taps, out):
     """Fill ``out`` (m, c) with what a filter of ``taps`` (k,) makes of the last m rows of
     ``values`` (m + k - 1, c).
@@ -102,6 +113,10 @@ class Filter(ABC):
     def next(self, values: np.ndarray) -> np.ndarray:
         """The next rows (k, c) of columns, white with unit variance."""
 
+    def power(self, values: np.ndarray) -> float:
+        """Sum of squares of all rows (m,) of one column, white."""
+        return float(np.sum(self.next(values[:, None]) ** 2))
+
 
 class _Innovations(Filter):
     """Of white noise of variance ``r`` and a random walk of ``k2`` a second."""
@@ -120,6 +135,9 @@ class _Innovations(Filter):
         values = values if values.flags.f_contiguous else np.ascontiguousarray(values)
         _filtered(values, self.gain[at], self.scale[at], self.level, out)
         return out
+
+    def power(self, values: np.ndarray) -> float:
+        return _power(values, self.gain, self.scale)
 
 
 class _PredictionErrors(Filter):
