@@ -121,6 +121,16 @@ def _back(white, gain, scale, out):
 
 
 @njit(cache=True)
+def _of_steps(gain, scale, out):
+    """Fill ``out`` (m + 1,) with the sums of squares of the innovations of a step at each row, of
+    which each is one less its gain times the one before.
+    """
+    out[len(gain)] = 0.0
+    for k in range(len(gain) - 1, -1, -1):
+        out[k] = scale[k] ** 2 + (1.0 - gain[k]) ** 2 * out[k + 1]
+
+
+@njit(cache=True)
 def _predicted(values, taps, out):
     """Fill ``out`` (m, c) with what a filter of ``taps`` (k,) makes of the last m rows of
     ``values`` (m + k - 1, c).
@@ -184,6 +194,12 @@ class Innovations(Filter):
         self.row += values.shape[1]
         out = np.zeros(len(values))
         _powers(values, self.gain[at], self.scale[at], self.level, out)
+        return out
+
+    def of_steps(self) -> np.ndarray:
+        """Sums of squares (m + 1,) of steps at each row and beyond the last, white."""
+        out = np.empty(len(self.gain) + 1)
+        _of_steps(self.gain, self.scale, out)
         return out
 
     def back(self, white: np.ndarray) -> np.ndarray:

@@ -16,10 +16,10 @@ from scipy.special import chdtrc
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.errors_in_variables import beside_moved, equations
 from pyimu.identification.fit.fit import Fit, with_prior
+from pyimu.identification.fit.glance import Glance
 from pyimu.identification.fit.keys import Shape
 from pyimu.identification.fit.normal import solve
 from pyimu.identification.formula.columns import columns_of
-from pyimu.identification.formula.glance import Glance
 from pyimu.identification.formula.terms import Term
 from pyimu.identification.search.projected import Projected, dispersion
 from pyimu.identification.search.screen import DRAWS, FALSE_ALARM, PENALTY

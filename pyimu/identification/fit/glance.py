@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -18,29 +19,31 @@ from pyimu.identification.fit.errors_in_variables import has_noise
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Key, Shape
 from pyimu.identification.fit.normal import DEAD, TOGETHER, Normal, normal_equations, solve
-from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.identification.fit.whiten import Innovations, RandomWalk
 
 
 @dataclass(frozen=True)
 class _Axis:
-    """One axis of a trial: the ``noise`` of its rows, residual and columns of the model, ``there``
-    and back (m, 1 + c), and their places (1 + c,) in the equations, the residual's behind all.
+    """One axis of a trial: what makes its rows ``white``, residual and columns of the model,
+    ``there`` and back (m, 1 + c), and their places (1 + c,) in the equations, the residual's behind
+    all.
     """
 
-    noise: RandomWalk
+    white: Callable[[], Innovations]
     there: np.ndarray
     places: list[int]
 
     @classmethod
     def of(cls, one: Linear, axis: int, noise: RandomWalk, model: Normal) -> _Axis:
-        white = noise.filter(one.time, one.segments)
+        white = partial(noise.filter, one.time, one.segments)
         columns = np.column_stack([one.residual[:, axis], *one.columns[axis].arrays])
         places = [len(model.keys), *(model.position[k] for k in one.keys[axis])]
-        return cls(noise, white.back(white.next(columns)), places)
+        there = white()
+        return cls(white, there.back(there.next(columns)), places)
 
-    def of_columns(self, one: Linear, columns: Stack) -> tuple[np.ndarray, np.ndarray]:
+    def of_columns(self, columns: Stack) -> tuple[np.ndarray, np.ndarray]:
         """Products (k, 1 + c) of columns (m, k), and the power (k,) of each, both white."""
-        white, count = self.noise.filter(one.time, one.segments), columns.shape[1]
+        white, count = self.white(), columns.shape[1]
         products, power = np.zeros((count, len(self.places))), np.zeros(count)
         rows = max(1, TOGETHER // max(count, 1))
         for a in range(0, columns.count, rows):
@@ -77,7 +80,7 @@ class Glance:
         linears = self.fit.beside(self.fit.residuals(), columns)
         for one, axes in zip(linears, self.axes, strict=True):
             for i, axis in axes.items():
-                each = axis.of_columns(one, one.columns[i])
+                each = axis.of_columns(one.columns[i])
                 for key, product, own in zip(one.keys[i], *each, strict=True):
                     products.setdefault(key, np.zeros(count + 1))[axis.places] += product
                     power[key] = power.get(key, 0.0) + float(own)
