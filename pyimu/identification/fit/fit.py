@@ -58,6 +58,10 @@ NEAR = 1.0
 what the noise of the reference changes, itself a small part of the columns, by a share of that."""
 
 
+SHORTEST_STEP = 1 / 128
+"""Share of a step of least squares below which a shorter one is not tried."""
+
+
 class Last:
     """What a model was last linearised to, for those that differ from it in their noise alone, and
     what the noise of the reference changes of it, once that was asked for.
@@ -343,8 +347,8 @@ def squares(linears: Iterable[Linear]) -> np.ndarray:
 
 def whitened(noise, one: Linear, axis: int) -> float:
     """Sum of squares of a residual on an axis, whitened."""
-    r = one.residual[:, axis : axis + 1]
-    return float(np.sum(noise.whiten(r, one.time, one.segments) ** 2))
+    white = noise.filter(one.time, one.segments)
+    return white.power(np.ascontiguousarray(one.residual[:, axis]))
 
 
 def plain_equations(fit: Fit) -> Normal:
@@ -358,7 +362,9 @@ def gauss_newton(
     equations: Callable[[Fit], Normal] = plain_equations,
     left: Callable[[Fit], float] = power,
 ) -> Fit:
-    """Least squares by normal ``equations``, each step halved until it lowers what is ``left``."""
+    """Least squares by normal ``equations``, each step shortened until it lowers what is ``left``:
+    the power that the equations have.
+    """
     start.last.settle()
     normal = with_prior(equations(start), start)
     for _ in range(steps):
@@ -367,33 +373,56 @@ def gauss_newton(
         if promised < 1e-3:
             break
         start.last.near = promised < NEAR
-        moved = _lower(start, normal, change, left)
-        if moved is None:
-            break
-        start = moved
-        normal = with_prior(equations(start), start)
+        changes = start.last.changes
+        # Mostly the whole step is taken, and its equations are asked for next: they say what is
+        # left, too.
+        moved = _along(start, normal.keys, change, changes)
+        after = with_prior(equations(moved), moved)
+        if not after.power < normal.power:
+            shorter = _shorter(start, normal, change, after.power, left)
+            if shorter is None:
+                start.last.changes = changes
+                break
+            moved, after = shorter, with_prior(equations(shorter), shorter)
+        start, normal = moved, after
     start.last.near = False
     return start
 
 
-def _lower(
-    start: Fit, normal: Normal, change: np.ndarray, left: Callable[[Fit], float]
+def _shorter(
+    start: Fit,
+    normal: Normal,
+    change: np.ndarray,
+    power: float,
+    left: Callable[[Fit], float],
 ) -> Fit | None:
-    """The fit a ``change`` further, or the largest half of a half of it that lowers what is
-    ``left``; None where that is none of eight.
+    """The fit a share of a ``change`` further that lowers what is ``left``, the whole of which left
+    a ``power``; None where that is none above ``SHORTEST_STEP``.
+
+    The next share is where the parabola through what is left, its slope at the start and the last
+    share is least, and between a tenth and a half of that (Nocedal and Wright 2006, "Numerical
+    optimization", section 3.5).
     """
-    last, changes = start.last, start.last.changes
-    for share in (change, *(change / 2**k for k in range(1, 8))):
-        moved = stepped(start, normal.keys, share)
-        if last.near:
-            last.changes = [carried(one, normal.keys, share) for one in changes]
-        if share is change:
-            # Mostly it is taken, and linearised next: that has the residual, too.
-            moved.linearise()
-        if left(moved) + prior_power(moved) < normal.power:
+    share, promised, changes = 1.0, float(change @ normal.score), start.last.changes
+    while True:
+        risen = power - normal.power + 2.0 * promised * share
+        # Of a step to where nothing is defined there is no parabola.
+        share *= min(max(promised * share / risen, 0.1), 0.5) if risen > 0.0 else 0.5
+        if share < SHORTEST_STEP:
+            return None
+        moved = _along(start, normal.keys, share * change, changes)
+        power = left(moved) + prior_power(moved)
+        if power < normal.power:
             return moved
-    last.changes = changes
-    return None
+
+
+def _along(start: Fit, keys: list[Key], change: np.ndarray, changes: list[Linear]) -> Fit:
+    """The fit a ``change`` further. While the search is near its place, what the noise of the
+    reference ``changes`` there is carried along.
+    """
+    if start.last.near:
+        start.last.changes = [carried(one, keys, change) for one in changes]
+    return stepped(start, keys, change)
 
 
 def carried(one: Linear, keys: list[Key], change: np.ndarray) -> Linear:

@@ -48,16 +48,22 @@ def _weights() -> np.ndarray:
 @njit(cache=True)
 def _weighed(x, row, weights, out):
     """Fill ``out`` (m, k) with what ``x`` (n, k) is at each of the fractional rows (m,)."""
-    last = len(x) - 1
+    last, own = len(x) - 1, np.empty(2 * TAPS)
     for r in range(len(row)):
         left = int(np.floor(row[r]))
         phase = (row[r] - left) * PHASES
         i = min(int(phase), PHASES - 1)
         share = phase - i
-        for k in range(x.shape[1]):
-            out[r, k] = 0.0
         for j in range(2 * TAPS):
-            at = min(max(left + j + 1 - TAPS, 0), last)
-            weight = weights[i, j] + share * (weights[i + 1, j] - weights[i, j])
-            for k in range(x.shape[1]):
-                out[r, k] += weight * x[at, k]
+            own[j] = weights[i, j] + share * (weights[i + 1, j] - weights[i, j])
+        first = left + 1 - TAPS
+        inside = first >= 0 and first + 2 * TAPS - 1 <= last
+        for k in range(x.shape[1]):
+            total = 0.0
+            if inside:
+                for j in range(2 * TAPS):
+                    total += own[j] * x[first + j, k]
+            else:
+                for j in range(2 * TAPS):
+                    total += own[j] * x[min(max(first + j, 0), last), k]
+            out[r, k] = total

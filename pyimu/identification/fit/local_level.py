@@ -6,6 +6,7 @@ a constant concentrated out of the likelihood.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 from numba import njit
@@ -45,6 +46,9 @@ FEWEST = 50
 Rows = tuple[np.ndarray, np.ndarray]
 """Values (m,) and the steps [s] to each, none before the first."""
 
+Part = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Means (m,) of rows, the steps to each, and the sum of squares within each."""
+
 
 @njit(cache=True)
 def _concentrated(values, steps, k2):
@@ -79,7 +83,7 @@ def likeliest(parts: Sequence[Rows], least: float) -> tuple[float, float]:
     them: the likeliest of all walks, none where none is likelier by a hundredth of a nat.
     """
     count = sum(len(v) for v, _ in parts)
-    step = float(np.median(np.concatenate([d[1:] for _, d in parts])))
+    step = _typical([d[1:] for _, d in parts])
     seen = _Seen(parts, least)
     whole = seen.in_means(1)
     tried = seen.tried(float(np.log(LOWEST / count**2)), step)
@@ -96,6 +100,14 @@ def likeliest(parts: Sequence[Rows], least: float) -> tuple[float, float]:
     if none <= lost + WORTH:
         return r, 0.0
     return beside, beside * float(np.exp(found.x)) / step
+
+
+def _typical(steps: Sequence[np.ndarray]) -> float:
+    """The median step; of those that are one any, since it takes as long as the fit to sort them
+    out.
+    """
+    least, most = min(d.min() for d in steps), max(d.max() for d in steps)
+    return float(least if most - least <= SAME * most else np.median(np.concatenate(steps)))
 
 
 def many_rows(log_ratio: float) -> int:
@@ -116,8 +128,16 @@ class _Seen:
     def in_means(self, many: int) -> _Means:
         many = min(many, self.most)
         if many not in self.made:
-            self.made[many] = _Means(self.parts, many, self.least)
+            self.made[many] = self._means(many)
         return self.made[many]
+
+    def _means(self, many: int) -> _Means:
+        """Those of even numbers are means of the means of half as many."""
+        if many == 1:
+            return _Means([(v, d, np.zeros(len(v))) for v, d in self.parts], 1, self.least)
+        of = self.in_means(1 if many % 2 else many // 2)
+        each = [_put_together(*part, many // of.many) for part in of.parts]
+        return _Means(each, many, self.least)
 
     def tried(self, first: float, step: float) -> dict[float, float]:
         """By the logarithm of their ratio what walks gain [nat] over none."""
@@ -132,48 +152,46 @@ class _Seen:
 
 
 class _Means:
-    """Residuals in means of ``many`` rows each; what is left at an end is left out."""
+    """Residuals in means of ``many`` rows each; what is left at an end is left out.
 
-    def __init__(self, parts: Sequence[Rows], many: int, least: float) -> None:
-        self.many, self.least = many, least
-        each = [_means(v, d, many) for v, d in parts]
-        self.parts, self.within = [(v, d) for v, d, _ in each], sum(w for _, _, w in each)
-        self.count = many * sum(len(v) for v, _ in self.parts)
-        self.none = self.lost(0.0)
+    ``parts`` are the means (m,) of each residual, as large as makes their white variance that of a
+    row, the steps to each, and the sum of squares within each.
+    """
+
+    def __init__(self, parts: Sequence[Part], many: int, least: float) -> None:
+        self.parts, self.many, self.least = parts, many, least
+        self.within = sum(float(inner.sum()) for _, _, inner in parts)
+        self.count = many * sum(len(v) for v, _, _ in parts)
+
+    @cached_property
+    def none(self) -> tuple[float, float]:
+        """``lost`` beside no walk."""
+        return self.lost(0.0)
 
     def lost(self, k2: float) -> tuple[float, float]:
         """Negative log-likelihood [nat] beside a walk of ``k2`` a second in units of the white
         variance of a row, and that variance.
         """
-        each = [_concentrated(v, d, self.many * k2) for v, d in self.parts]
+        each = [_concentrated(v, d, self.many * k2) for v, d, _ in self.parts]
         logs, powers = zip(*each, strict=True)
         white = max((sum(powers) + self.within) / self.count, self.least)
         return 0.5 * sum(logs) + 0.5 * self.count * float(np.log(white)), white
 
 
-def _means(
-    values: np.ndarray, steps: np.ndarray, many: int
-) -> tuple[np.ndarray, np.ndarray, float]:
-    """Means of ``many`` rows, as large as makes their white variance that of a row, the steps to
-    each, and the sum of squares within them.
-    """
-    return (values, steps, 0.0) if many == 1 else _put_together(values, steps, many)
-
-
 @njit(cache=True)
-def _put_together(values, steps, many):
-    """What ``_means`` gives, in one pass over the rows."""
+def _put_together(values, steps, inner, many):
+    """A part of ``_Means`` in means of ``many`` of its means each."""
     count = len(values) // many
-    means, apart = np.empty(count), np.empty(count)
-    time, before, within = 0.0, 0.0, 0.0
+    means, apart, within = np.empty(count), np.empty(count), np.empty(count)
+    time, before = 0.0, 0.0
     for k in range(count):
-        total, middle = 0.0, 0.0
+        total, middle, left = 0.0, 0.0, 0.0
         for j in range(k * many, (k + 1) * many):
             time += steps[j]
             total, middle = total + values[j], middle + time
         total, middle = total / many, middle / many
         for j in range(k * many, (k + 1) * many):
-            within += (values[j] - total) ** 2
+            left += inner[j] + (values[j] - total) ** 2
         means[k], apart[k] = np.sqrt(many) * total, middle - before if k else 0.0
-        before = middle
+        within[k], before = left, middle
     return means, apart, within

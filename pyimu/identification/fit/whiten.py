@@ -73,6 +73,64 @@ def _filtered(values, gain, scale, level, out):
 
 
 @njit(cache=True)
+def _power(values, gain, scale):
+    """Sum of the squares of the innovations of ``values`` (m,)."""
+    level, total = 0.0, 0.0
+    for k in range(len(values)):
+        v = values[k] - level
+        level += gain[k] * v
+        total += (v * scale[k]) ** 2
+    return total
+
+
+@njit(cache=True)
+def _powers(values, gain, scale, level, out):
+    """Add to ``out`` (c,) the sums of squares of the innovations of columns (c, m), from a
+    ``level`` (c,) on; four at a time, for each innovation waits for the one before.
+    """
+    c, m = values.shape
+    for j in range(0, c, 4):
+        one, two = min(j + 1, c - 1), min(j + 2, c - 1)
+        three = min(j + 3, c - 1)
+        a, b, d, e = level[j], level[one], level[two], level[three]
+        of_a, of_b, of_d, of_e = 0.0, 0.0, 0.0, 0.0
+        for k in range(m):
+            va, vb = values[j, k] - a, values[one, k] - b
+            vd, ve = values[two, k] - d, values[three, k] - e
+            a, b, d, e = a + gain[k] * va, b + gain[k] * vb, d + gain[k] * vd, e + gain[k] * ve
+            sure = scale[k] * scale[k]
+            of_a, of_b = of_a + va * va * sure, of_b + vb * vb * sure
+            of_d, of_e = of_d + vd * vd * sure, of_e + ve * ve * sure
+        level[j], out[j] = a, out[j] + of_a
+        if j + 1 < c:
+            level[one], out[one] = b, out[one] + of_b
+        if j + 2 < c:
+            level[two], out[two] = d, out[two] + of_d
+        if j + 3 < c:
+            level[three], out[three] = e, out[three] + of_e
+
+
+@njit(cache=True)
+def _back(white, gain, scale, out):
+    """Fill ``out`` (m, c) with what the transpose of ``_filtered`` makes of ``white`` (m, c)."""
+    later = np.zeros(white.shape[1])
+    for k in range(len(white) - 1, -1, -1):
+        for j in range(len(later)):
+            out[k, j] = white[k, j] * scale[k] + gain[k] * later[j]
+            later[j] -= out[k, j]
+
+
+@njit(cache=True)
+def _of_steps(gain, scale, out):
+    """Fill ``out`` (m + 1,) with the sums of squares of the innovations of a step at each row, of
+    which each is one less its gain times the one before.
+    """
+    out[len(gain)] = 0.0
+    for k in range(len(gain) - 1, -1, -1):
+        out[k] = scale[k] ** 2 + (1.0 - gain[k]) ** 2 * out[k + 1]
+
+
+@njit(cache=True)
 def _predicted(values, taps, out):
     """Fill ``out`` (m, c) with what a filter of ``taps`` (k,) makes of the last m rows of
     ``values`` (m + k - 1, c).
@@ -102,8 +160,12 @@ class Filter(ABC):
     def next(self, values: np.ndarray) -> np.ndarray:
         """The next rows (k, c) of columns, white with unit variance."""
 
+    def power(self, values: np.ndarray) -> float:
+        """Sum of squares of all rows (m,) of one column, white."""
+        return float(np.sum(self.next(values[:, None]) ** 2))
 
-class _Innovations(Filter):
+
+class Innovations(Filter):
     """Of white noise of variance ``r`` and a random walk of ``k2`` a second."""
 
     def __init__(self, time: np.ndarray, before: float, r: float, k2: float) -> None:
@@ -119,6 +181,31 @@ class _Innovations(Filter):
         out = np.empty(values.shape)
         values = values if values.flags.f_contiguous else np.ascontiguousarray(values)
         _filtered(values, self.gain[at], self.scale[at], self.level, out)
+        return out
+
+    def power(self, values: np.ndarray) -> float:
+        return _power(values, self.gain, self.scale)
+
+    def powers(self, values: np.ndarray) -> np.ndarray:
+        """Sums of squares (c,) of the next rows of columns (c, m), white."""
+        if not self.row:
+            self.level = np.zeros(len(values))
+        at = slice(self.row, self.row + values.shape[1])
+        self.row += values.shape[1]
+        out = np.zeros(len(values))
+        _powers(values, self.gain[at], self.scale[at], self.level, out)
+        return out
+
+    def of_steps(self) -> np.ndarray:
+        """Sums of squares (m + 1,) of steps at each row and beyond the last, white."""
+        out = np.empty(len(self.gain) + 1)
+        _of_steps(self.gain, self.scale, out)
+        return out
+
+    def back(self, white: np.ndarray) -> np.ndarray:
+        """What the transpose of the filter makes of all rows (m, c)."""
+        out = np.empty(white.shape)
+        _back(white, self.gain, self.scale, out)
         return out
 
 
@@ -192,9 +279,9 @@ class RandomWalk:
         """Innovations (m, c), unit variance, of columns (m, c) sampled at ``time`` (m,)."""
         return self.filter(time, segments).next(values)
 
-    def filter(self, time: np.ndarray, segments: Segments) -> Filter:
+    def filter(self, time: np.ndarray, segments: Segments) -> Innovations:
         """What makes columns sampled at ``time`` (m,) white."""
-        return _Innovations(time, self.before, self.r, self.k2)
+        return Innovations(time, self.before, self.r, self.k2)
 
     def log_det(self, time: np.ndarray, segments: Segments) -> float:
         """Sum of the logarithms of the innovation variances."""

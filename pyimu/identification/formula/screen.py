@@ -16,6 +16,7 @@ from scipy.special import chdtrc
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.errors_in_variables import beside_moved, equations
 from pyimu.identification.fit.fit import Fit, with_prior
+from pyimu.identification.fit.glance import Glance
 from pyimu.identification.fit.keys import Shape
 from pyimu.identification.fit.normal import solve
 from pyimu.identification.formula.columns import columns_of
@@ -77,7 +78,30 @@ class Scores:
 
 def scored(fit: Fit, terms: Sequence[Term], columns: Callable = columns_of) -> Scores:
     """The terms with what each would explain beside a model; ``columns`` makes theirs."""
-    out: list[Scored] = []
+    plain = _at_a_glance(fit, terms, columns)
+    found = plain | _in_full(fit, [t for t in terms if t.text not in plain], columns)
+    out = [found[t.text] for t in terms if t.text in found]
+    return Scores(tuple(sorted(out, key=lambda s: -s.gain)), fit)
+
+
+def _at_a_glance(fit: Fit, terms: Sequence[Term], columns: Callable) -> dict[str, Scored]:
+    """By text the terms of one column each that explain no more on any axis than its penalty."""
+    glance, out = Glance.of(fit), {}
+    single = [t for t in terms if len(t.code) == 1]
+    for few in _chunks(single if glance is not None else ()):
+        explained = glance.explained([columns(fit.sensor.kind, few)])
+        for term in few:
+            keys = {i: Shape(term.text, 0, i) for i in range(3)}
+            power = {i: explained[k] for i, k in keys.items() if k in explained}
+            if max(power.values(), default=0.0) <= 2.0 * PENALTY:
+                chances = [(float(chdtrc(1, p)), i) for i, p in power.items()]
+                out[term.text] = Scored(term, 0.0, (), *min([(1.0, 0), *chances]))
+    return out
+
+
+def _in_full(fit: Fit, terms: Sequence[Term], columns: Callable) -> dict[str, Scored]:
+    """By text what each of the terms explains."""
+    out: dict[str, Scored] = {}
     pair = beside_moved(fit)
     for few in _chunks(terms):
 
@@ -91,8 +115,8 @@ def scored(fit: Fit, terms: Sequence[Term], columns: Callable = columns_of) -> S
             continue
         projected = Projected.of(normal, model, list(place.values()))
         at = {k: n for n, k in enumerate(place)}
-        out += [_scored(t, projected, at) for t in few]
-    return Scores(tuple(sorted(out, key=lambda s: -s.gain)), fit)
+        out |= {t.text: _scored(t, projected, at) for t in few}
+    return out
 
 
 def _chunks(terms: Sequence[Term]) -> Iterator[list[Term]]:

@@ -36,64 +36,70 @@ def _likelihood(r, steps, white, walk, spread, rate):
     (m,) a second between; ``white`` (n, m) is the variance of a row.
     """
     n, m = r.shape
-    weight, mean, variance = np.zeros(KEPT + 1), np.zeros((KEPT + 1, m)), np.zeros((KEPT + 1, m))
+    weight, mean, variance = np.zeros(KEPT + 1), np.zeros((m, KEPT + 1)), np.zeros((m, KEPT + 1))
+    square, product = np.zeros(KEPT + 1), np.zeros(KEPT + 1)
     weight[0], count, total = 1.0, 1, 0.0
-    variance[0] = spread
-    logs = np.zeros(KEPT + 1)
+    variance[:, 0] = spread
     for k in range(n):
         if k > 0:
             jump = -np.expm1(-rate * steps[k])
             for i in range(count):
                 weight[i] *= 1.0 - jump
-                for a in range(m):
-                    variance[i, a] += walk[a] * steps[k]
             weight[count] = jump
             for a in range(m):
-                mean[count, a], variance[count, a] = 0.0, spread[a]
+                for i in range(count):
+                    variance[a, i] += walk[a] * steps[k]
+                mean[a, count], variance[a, count] = 0.0, spread[a]
             count += 1
-        best = -np.inf
         for i in range(count):
-            product, square = 1.0, 0.0
-            for a in range(m):
-                f, v = variance[i, a] + white[k, a], r[k, a] - mean[i, a]
-                gain = variance[i, a] / f
-                product *= f / white[k, a]
-                square += v * v / f
-                mean[i, a] += gain * v
-                variance[i, a] *= 1.0 - gain
-            logs[i] = -0.5 * (square + np.log(product))
-            best = max(best, logs[i])
+            square[i], product[i] = 0.0, 1.0
+        for a in range(m):
+            value, known = r[k, a], white[k, a]
+            for i in range(count):
+                f, v = variance[a, i] + known, value - mean[a, i]
+                sure = 1.0 / f
+                gain = variance[a, i] * sure
+                product[i] *= f
+                square[i] += v * v * sure
+                mean[a, i] += gain * v
+                variance[a, i] = gain * known
+        least = square[:count].min()
         summed = 0.0
         for i in range(count):
-            weight[i] *= np.exp(logs[i] - best)
+            weight[i] *= np.exp(0.5 * (least - square[i])) / np.sqrt(product[i])
             summed += weight[i]
-        total += best + np.log(summed)
-        for a in range(m):
-            total -= 0.5 * np.log(white[k, a])
-        count = _kept(weight, mean, variance, count, summed)
+        total += np.log(summed) - 0.5 * least
+        count = _kept(weight, mean, variance, count)
     return total
 
 
 @njit(cache=True)
-def _kept(weight, mean, variance, count, summed):
+def _kept(weight, mean, variance, count):
     """The number of hypotheses that stay, moved to the front, their weights adding up to one."""
-    largest = weight[:count].max()
-    stay, left = 0, 0.0
-    for i in range(count):
-        if weight[i] > UNLIKELY * largest:
-            weight[stay] = weight[i]
-            mean[stay], variance[stay] = mean[i], variance[i]
+    least, left, i = UNLIKELY * weight[:count].max(), 0.0, 0
+    while i < count:
+        if weight[i] > least:
             left += weight[i]
-            stay += 1
-    if stay > KEPT:
-        least = np.argmin(weight[:stay])
-        left -= weight[least]
-        stay -= 1
-        weight[least] = weight[stay]
-        mean[least], variance[least] = mean[stay], variance[stay]
-    for i in range(stay):
+            i += 1
+        else:
+            count -= 1
+            _move(weight, mean, variance, count, i)
+    if count > KEPT:
+        i = np.argmin(weight[:count])
+        left -= weight[i]
+        count -= 1
+        _move(weight, mean, variance, count, i)
+    for i in range(count):
         weight[i] /= left
-    return stay
+    return count
+
+
+@njit(cache=True)
+def _move(weight, mean, variance, one, other):
+    """Put a hypothesis in the place of another one."""
+    weight[other] = weight[one]
+    for a in range(len(mean)):  # In loops, as in ``pyimu.positive``.
+        mean[a, other], variance[a, other] = mean[a, one], variance[a, one]
 
 
 def levels_likelihood(axes: Sequence[Rows], white: np.ndarray, walk: np.ndarray) -> float:

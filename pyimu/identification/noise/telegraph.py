@@ -13,6 +13,7 @@ import numpy as np
 from numba import njit
 from scipy.optimize import minimize
 
+from pyimu.identification.fit.local_level import SAME
 from pyimu.identification.noise.rows import Rows
 
 SHORT = 0.5
@@ -59,54 +60,50 @@ def _likelihood(r, steps, sure, gain, low, gap, up, down):
     """Log-likelihood [nat, constant and variances left out] of residuals (n, m) beside a bias that
     goes between ``low`` and ``low + gap`` (m,), ``up`` and ``down`` being jumps a second.
 
+    ``below`` and ``above`` are the weights of the two states, whose sum is the likelihood so far.
     The bias walks, with innovations of one over variance ``sure`` (n, m) and ``gain`` (n, m). What
     is known of it in either state is one normal each, of one variance: after each row the two that
     lead to a state are put together in their mean (Kim 1994).
     """
     n, m = r.shape
-    both, share, total = up + down, up / (up + down), 0.0
-    mean, step, kept, product = np.zeros((2, m)), -1.0, 1.0, 1.0
+    both, total = up + down, 0.0
+    below, above = down / both, up / both
+    mean, step, rise, fall = np.zeros((2, m)), -1.0, 0.0, 0.0
     for a in range(m):
         mean[:, a] = low[a]
-    weight, moved, logs = np.zeros((2, 2)), np.zeros((2, m)), np.zeros((2, 2))
     for k in range(n):
-        if steps[k] != step:
+        if abs(steps[k] - step) > SAME * step:
             step = steps[k]
-            kept = np.exp(-both * step)
-        rise, fall = up / both * (1.0 - kept), down / both * (1.0 - kept)
-        weight[0, 0], weight[0, 1] = (1.0 - share) * (1.0 - rise), (1.0 - share) * rise
-        weight[1, 0], weight[1, 1] = share * fall, share * (1.0 - fall)
-        best = -np.inf
-        for i in range(2):
-            for j in range(2):
-                logs[i, j] = 0.0
-                for a in range(m):
-                    v = r[k, a] - mean[i, a] - j * gap[a]
-                    logs[i, j] -= 0.5 * v * v * sure[k, a]
-                best = max(best, logs[i, j])
-        for i in range(2):
-            for j in range(2):
-                if logs[i, j] < best:
-                    weight[i, j] *= np.exp(logs[i, j] - best)
-        mixed = max(weight[0, 0] + weight[0, 1] + weight[1, 0] + weight[1, 1], 1e-300)
-        total, product = total + best, product * mixed
+            moved = -np.expm1(-both * step) / both
+            rise, fall = up * moved, down * moved
+        # Half the squares of the innovations from either state, first, to either state.
+        stays, rises, falls, keeps = 0.0, 0.0, 0.0, 0.0
+        for a in range(m):
+            half = 0.5 * sure[k, a]
+            from_low, from_high = r[k, a] - mean[0, a], r[k, a] - mean[1, a]
+            stays += half * from_low**2
+            rises += half * (from_low - gap[a]) ** 2
+            falls += half * from_high**2
+            keeps += half * (from_high - gap[a]) ** 2
+        best = min(min(stays, rises), min(falls, keeps))
+        total -= best
+        stays = below * (1.0 - rise) * np.exp(best - stays)
+        rises = below * rise * np.exp(best - rises)
+        falls = above * fall * np.exp(best - falls)
+        keeps = above * (1.0 - fall) * np.exp(best - keeps)
+        below, above = max(stays + falls, 1e-300), max(rises + keeps, 1e-300)
+        fallen, kept = falls / below, keeps / above
+        for a in range(m):
+            apart = mean[1, a] - mean[0, a]
+            first, second = mean[0, a] + fallen * apart, mean[0, a] + kept * apart
+            mean[0, a] = first + gain[k, a] * (r[k, a] - first)
+            mean[1, a] = second + gain[k, a] * (r[k, a] - gap[a] - second)
         # A logarithm of many numbers at once, while their product is one still.
-        if product < 1e-8:
-            total, product = total + np.log(product), 1.0
-        for j in range(2):
-            into = max(weight[0, j] + weight[1, j], 1e-300)
-            one, other = weight[0, j] / into, weight[1, j] / into
-            for a in range(m):
-                v = r[k, a] - j * gap[a]
-                first, second = mean[0, a], mean[1, a]
-                moved[j, a] = one * (first + gain[k, a] * (v - first))
-                moved[j, a] += other * (second + gain[k, a] * (v - second))
-        for j in range(2):  # In loops, as in ``pyimu.positive``.
-            for a in range(m):
-                mean[j, a] = moved[j, a]
-        share = (weight[0, 1] + weight[1, 1]) / mixed
-    total += np.log(product)
-    return total
+        mixed = below + above
+        if mixed < 1e-8:
+            total += np.log(mixed)
+            below, above = below / mixed, above / mixed
+    return total + np.log(below + above)
 
 
 def telegraph_likelihood(axes: Sequence[Rows], white: np.ndarray, walk: np.ndarray) -> float:

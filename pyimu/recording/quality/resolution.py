@@ -12,6 +12,10 @@ CONCENTRATION = 0.8
 """|mean exp(2 pi i v / q)| above which values lie on a comb of step q."""
 
 
+FEW, CHANCE = 4096, 0.1
+"""Levels by which a comb is refused where there are many, and by how much less than all of them
+these may be concentrated by chance: six standard errors, of one over the root of their number."""
+
 RELEVANT_STEP = 0.1
 """A step below this part of the noise is the rounding of the file, and does nothing."""
 
@@ -123,8 +127,15 @@ def _on_comb(step: float, known: np.ndarray, levels: np.ndarray) -> float | None
     """A step refined, if the levels lie on its multiples."""
     centre = levels - levels[np.argmin(np.abs(levels - np.median(known)))]
     step = _refined(step, centre)
-    phases = np.exp(2j * np.pi * centre / step)
-    return step if np.abs(phases.mean()) > CONCENTRATION else None
+    some = np.random.default_rng(1).integers(len(centre), size=FEW) if len(centre) > FEW else []
+    if len(some) and _concentration(step, centre[some]) < CONCENTRATION - CHANCE:
+        return None
+    return step if _concentration(step, centre) > CONCENTRATION else None
+
+
+def _concentration(step: float, centre: np.ndarray) -> float:
+    """|mean exp(2 pi i v / q)| of levels ``centre`` (n,)."""
+    return float(np.abs(np.exp(2j * np.pi / step * centre).mean()))
 
 
 def _first_step(ordered: np.ndarray, levels: np.ndarray) -> float | None:
