@@ -124,7 +124,7 @@ def arc_tangent(y, x):
     square = t * t
     angle = (
         t
-        + t * (square * _horner(square, TANGENT_UPPER) / _horner(square, TANGENT_LOWER))
+        + t * (square * _estrin(square, TANGENT_UPPER) / _estrin(square, TANGENT_LOWER))
         + large * (pi / 4)
     )
     # The magnitude of a difference is the one or the other, without a choice.
@@ -230,3 +230,15 @@ def _horner(x, coefficients: Sequence[float]):
     for coefficient in coefficients[1:]:
         total = total * x + coefficient
     return total
+
+
+def _estrin(x, coefficients: Sequence[float]):
+    """The same as ``_horner`` with fewer operations one after the other, by pairs (Estrin 1960):
+    nothing waits for a filter's angles, which are the last that its step makes, but the next step.
+    """
+    while len(coefficients) > 1:
+        alone = len(coefficients) % 2
+        pairs = zip(coefficients[alone::2], coefficients[alone + 1 :: 2], strict=True)
+        coefficients = [*coefficients[:alone], *(a * x + b for a, b in pairs)]
+        x = x * x
+    return coefficients[0]
