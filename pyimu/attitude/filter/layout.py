@@ -10,7 +10,7 @@ import casadi as ca
 from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.field import FIELD
-from pyimu.attitude.filter.memory import ESTIMATE, WORKING, memory_sizes
+from pyimu.attitude.filter.memory import ESTIMATE, MOTION, WORKING, memory_sizes
 from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.variables import INPUTS, OWN_PARAMETERS
 from pyimu.block.variables import Variable
@@ -158,13 +158,14 @@ class Layout:
     def sizes(self) -> dict[str, int]:
         """The size of each argument by name.
 
-        The ``estimate`` and the ``memory`` that follows it in the state ``s``, the working estimate
-        ``x``, the inputs ``u``, the parameters ``p``, the sample period ``h``; the compensated
+        The ``estimate`` and the ``memory`` that follows it in the state ``s``, with the ``motion``
+        that it ends with, the working estimate ``x``, the inputs ``u``, the parameters ``p``, the sample period ``h``; the compensated
         ``rate``, the force that stands for ``gravity``, the ``flags``, ``vertical_noise``.
         """
         return {
             "estimate": ESTIMATE,
             "memory": self.rings - ESTIMATE,
+            "motion": MOTION,
             "s": self.field + FIELD,
             "x": WORKING,
             "u": len(self.inputs),
