@@ -145,6 +145,11 @@ class Layout:
         return (*own, *part.gyro.variables, *part.accel.variables)
 
     @cached_property
+    def motion(self) -> int:
+        """Where in the state what is known of the motion begins, with which the memory ends."""
+        return self.rings - MOTION
+
+    @cached_property
     def rings(self) -> int:
         """Where in the state the two rings of past yaws and past ``vertical_noise`` begin."""
         return ESTIMATE + sum(memory_sizes(self.compensation))

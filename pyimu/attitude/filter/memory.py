@@ -164,7 +164,11 @@ class Memory:
         parts = ca.vertsplit(column, ends)
         quasi, size = QuasiStatic(*parts[:2]), GravitySize(*parts[2:5])
         mean, after = MeanForce(*parts[5:8]), 8 + len(STILLNESS)
-        still, others, motion = Stillness(*parts[8:after]), parts[after:-1], Motion.unpack(parts[-1])
+        still, others, motion = (
+            Stillness(*parts[8:after]),
+            parts[after:-1],
+            Motion.unpack(parts[-1]),
+        )
         return cls(cls.estimate_of(estimate), quasi, size, mean, motion, still, *others)
 
 
