@@ -7,8 +7,8 @@ import pytest
 from pyimu.attitude.filter.gathered import LOOK, Gathered
 from pyimu.attitude.filter.slow_motion import Bounds
 from pyimu.attitude.filter.unscented import AXES, WHOLE, Estimate
-from pyimu.attitude.filter.velocity import OUTLIER, RISE, SIZES as MOTION_SIZES
-from pyimu.attitude.filter.velocity import Motion, followed, with_sample
+from pyimu.attitude.filter.velocity import OUTLIER, RISE, Motion, followed, with_sample
+from pyimu.attitude.filter.velocity import SIZES as MOTION_SIZES
 
 TIME = 1.0
 """s; correlation time of the velocity."""

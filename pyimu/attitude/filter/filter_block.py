@@ -80,9 +80,9 @@ def step_function(
 ) -> ca.Function:
     """The step ``(s, u, p, w, h) -> (s_next, y)`` of the block, without noise.
 
-    ``symbols`` are s, u, p and h. ``estimate``, ``memory``, ``motion`` and ``field`` are the columns
-    after the sample; its ``yaw`` and its variance about the vertical take their slot in the rings. Where they
-    depend on constants ``c``, these are a last argument.
+    ``symbols`` are s, u, p and h. ``estimate``, ``memory``, ``motion`` and ``field`` are the
+    columns after the sample; its ``yaw`` and its variance about the vertical take their slot in the
+    rings. Where they depend on constants ``c``, these are a last argument.
     """
     s, u, p, h = symbols
     if layout.compensation.shows_now:

@@ -164,8 +164,9 @@ class Layout:
         """The size of each argument by name.
 
         The ``estimate`` and the ``memory`` that follows it in the state ``s``, with the ``motion``
-        that it ends with, the working estimate ``x``, the inputs ``u``, the parameters ``p``, the sample period ``h``; the compensated
-        ``rate``, the force that stands for ``gravity``, the ``flags``, ``vertical_noise``.
+        that this ends with; the working estimate ``x``, the inputs ``u``, the parameters ``p``, the
+        sample period ``h``; the compensated ``rate``, the force that stands for ``gravity``, the
+        ``flags``, ``vertical_noise``.
         """
         return {
             "estimate": ESTIMATE,

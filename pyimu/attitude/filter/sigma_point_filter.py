@@ -99,7 +99,8 @@ def _step(layout: Layout) -> ca.Function:
 
 
 def _predict(layout: Layout) -> ca.Function:
-    """``estimate, memory, u, p, h -> x, memory, motion, due, rate, gravity, flags``, as ``predicted`` has them.
+    """``estimate, memory, u, p, h -> x, memory, motion, due, rate, gravity, flags``, as
+    ``predicted`` has them.
 
     A stationary body keeps its attitude: its gyro then measures the bias, and must not be used
     twice.

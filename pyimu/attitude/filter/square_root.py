@@ -187,7 +187,8 @@ def _factor_of() -> ca.Function:
 
 
 def _predict(layout: Layout) -> ca.Function:
-    """``estimate, memory, u, p, h -> x, memory, motion, due, rate, gravity, flags``, as ``predicted`` has them.
+    """``estimate, memory, u, p, h -> x, memory, motion, due, rate, gravity, flags``, as
+    ``predicted`` has them.
 
     The ``estimate`` and ``x`` have the factor.
     """

@@ -125,8 +125,8 @@ def _step(layout: Layout, recorded: bool = False) -> Prepared:
 
 
 def _predict(layout: Layout, recorded: bool = False) -> tuple[ca.Function, ca.Function]:
-    """``p, h -> c`` and ``estimate, memory, u, c -> x, memory, motion, due, rate, gravity, flags``, as
-    ``predicted`` has them.
+    """``p, h -> c`` and ``estimate, memory, u, c -> x, memory, motion, due, rate, gravity, flags``,
+    as ``predicted`` has them.
 
     Where it is ``recorded``, the transition of the error follows.
 
