@@ -233,8 +233,9 @@ def _horner(x, coefficients: Sequence[float]):
 
 
 def _estrin(x, coefficients: Sequence[float]):
-    """The same as ``_horner`` with fewer operations one after the other, by pairs (Estrin 1960):
-    nothing waits for a filter's angles, which are the last that its step makes, but the next step.
+    """The same as ``_horner`` by pairs, in fewer operations one after the other (Estrin 1960).
+
+    A filter's step ends with its angles, and the next one waits as long as these do.
     """
     while len(coefficients) > 1:
         alone = len(coefficients) % 2

@@ -1,5 +1,7 @@
 """What samples show of the motion, gathered between two looks at it."""
 
+from dataclasses import replace
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -87,3 +89,14 @@ def test_a_velocity_beyond_all_that_was_found_shows_with_its_sample():
     after, bounded = with_sample(*args)
     assert numbers(bounded.variance)[0] == pytest.approx(speed**2 / OUTLIER, rel=1e-9)
     assert numbers(after.across) == pytest.approx(0.01)
+
+
+def test_nothing_slow_is_left_of_a_motion_that_has_ended():
+    """Neither a drift of the velocity, nor that a tilt by the gyro's scale factors shows in it."""
+    start = Motion.start(ca.SX(0.1), ca.SX(TIME))
+    motion = replace(start, slow=ca.SX([1, 2]), by_scale=ca.SX(1))
+    for goes_on in (1, 0):
+        args = motion, resting_at([0, 0, 0]), ca.SX(3, 1), goes_on, 0, goes_on, 1, 1, 1e-3
+        after, _ = with_sample(*args)
+        left = numbers(ca.vertcat(after.slow, after.by_scale, after.gathered.span > 0))
+        np.testing.assert_array_equal(left, np.array([1, 2, 1, 1]) * goes_on)

@@ -63,7 +63,7 @@ of the covariance, row by row."""
 
 @dataclass(frozen=True)
 class Memory:
-    """What is kept from sample to sample, in the order of the state.
+    """What is kept from sample to sample, in the order of the state, in which ``motion`` is last.
 
     ``safe`` and ``later`` (6,) are the bias (3,) rad/s and its variance as ``stillness.kept`` has
     them. ``held`` is the last good gyro (3), accel (3), temperature and further inputs.

@@ -391,7 +391,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         rest.calm,
         _turning(at, sample),
         rest.known,
-        ca.sum2(scaled_tilt(x, vertical(x)) ** 2) * (kept.motion.by_scale / SCALE_TIME),
+        ca.sum2(scaled_tilt(x, vertical(x)) ** 2) * (motion.by_scale / SCALE_TIME),
         ca.fmax(kept.scales, _scales(at)),
         vertical_noise,
         ca.vertcat(*place),

@@ -127,11 +127,9 @@ def passing_std(at: Mapping[str, ca.SX]):
 def where(flag, value, otherwise=0):
     """``value`` where the flag holds, else ``otherwise``.
 
-    A flag that is a Python value costs no choice in the generated code.
+    A flag that is the Python value True costs no choice in the generated code.
     """
-    if isinstance(flag, bool):
-        return value if flag else otherwise
-    return ca.if_else(flag, value, otherwise)
+    return value if flag is True else ca.if_else(flag, value, otherwise)
 
 
 def follow(x: QuasiStatic, measured, walk_variance, noise_variance, valid) -> QuasiStatic:

@@ -298,7 +298,8 @@ def with_sample(
     seen = ca.vertcat(motion.across, motion.along)
     variance = moves * ca.fmax(seen, squares * (1 / OUTLIER))
     long = LongPush(may * motion.long.force, motion.long.variance)
-    after = replace(motion, slow=goes_on * motion.slow, long=long, gathered=gathered)
+    slow, by_scale = goes_on * motion.slow, goes_on * motion.by_scale
+    after = replace(motion, slow=slow, by_scale=by_scale, long=long, gathered=gathered)
     return after, Bounded(variance, motion.slowly.share)
 
 
