@@ -4,8 +4,8 @@ from Python.
 ``python benchmarks/filter_speed.py [samples]``; needs vqf and filterpy, which the package itself
 does not. The filter is the FMU's C (gcc -O3 for this processor, no fast-math, no contracted
 multiply-adds), with vectors where the processor has AVX2, run by ``Block.run``; vqf its C++ through
-its Python package, in one batch. They run by turns, and of each the fastest round counts, which is
-the one that others on the machine disturbed least.
+its Python package, in one batch. They run by turns, and of each the round of the least processor
+time counts, which is the one that others on the machine disturbed least.
 """
 
 import sys
@@ -116,8 +116,8 @@ def measure(block, rows, p, peer) -> tuple[float, float]:
     if not sensors[2].any():
         del sensors[2]
     filter_ = peer(block.sample_period)
-    theirs = clock(lambda: filter_.updateBatch(*sensors))
-    ours = clock(lambda: block.run(rows, p=p))
+    theirs = busy(lambda: filter_.updateBatch(*sensors))
+    ours = busy(lambda: block.run(rows, p=p))
     return ours / len(rows) * 1e9, theirs / len(rows) * 1e9
 
 
@@ -130,6 +130,13 @@ def clock(call) -> float:
     start = time.perf_counter()
     call()
     return time.perf_counter() - start
+
+
+def busy(call) -> float:
+    """s of processors that a call takes."""
+    start = time.process_time()
+    call()
+    return time.process_time() - start
 
 
 def against_filterpy(ours: float) -> None:
@@ -159,7 +166,7 @@ def against_filterpy(ours: float) -> None:
                 peer.predict()
                 peer.update(z)
 
-        theirs = min(clock(steps) for _ in range(5)) / FILTERPY_STEPS * 1e9
+        theirs = min(busy(steps) for _ in range(5)) / FILTERPY_STEPS * 1e9
         print(
             f"{'filterpy':28s}{theirs:8.0f} ns a step with {title}: {theirs / ours:.0f} times ours "
             "with its update" + (" (goal at least 1000)" if fx is turned_error else "")
@@ -223,20 +230,20 @@ def four_hours(block, p: np.ndarray, n: int) -> None:
     }
     one = {}
     for smooth in (False, True):
-        found, busy = [], time.process_time()
+        found, before = [], time.process_time()
 
         def whole(smooth=smooth, found=found):
             part = pyimu.part("imt30")
             found.append(pyimu.attitude.run(log, part, settings=settings, smooth=smooth))
 
         seconds = clock(whole)
-        busy = time.process_time() - busy
-        one[smooth] = busy
+        taken = time.process_time() - before
+        one[smooth] = taken
         print(
             f"{n} samples at 976 Hz ({n / 976 / 3600:.2g} h) by pyimu.attitude.run"
-            f"{', smoothed' * smooth}: {seconds:.1f} s, {busy:.1f} s of processors, "
+            f"{', smoothed' * smooth}: {seconds:.1f} s, {taken:.1f} s of processors, "
             + (
-                f"{busy / one[False]:.2f} of the filter's (goal at most 3)"
+                f"{taken / one[False]:.2f} of the filter's (goal at most 3)"
                 if smooth
                 else f"an update in {np.mean(found[0].nis > 0):.0%} of the steps (goal 10 s for "
                 f"{FOUR_HOURS})"

@@ -31,6 +31,8 @@ EXPORT int64_t run(int64_t n, double *s, const double *u, const double *p, const
   if (CONSTANTS(arg, res, iw, work, 0)) return 0;
 #endif
   for (int64_t i = 0; i < ROWS * NW; ++i) normals[i] = 0.0;
+  /* What a step leaves as it was, it need not copy from the one to the other. */
+  for (int i = 0; i < NS; ++i) next[i] = s[i];
   for (; k < n; ++k) {
     if (NW && !w && channels && k % ROWS == 0) {
       noise_fill(normals, seed, channels, NW, first + k, n - k < ROWS ? n - k : ROWS);

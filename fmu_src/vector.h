@@ -28,4 +28,13 @@ typedef double Vector4At __attribute__((vector_size(32), aligned(8), may_alias))
 #define FMIN4(x, y) CHOICE4((Mask4) ((x) <= (y)) | (Mask4) ((y) != (y)), x, y)
 #define FABS4(x) ((Vector4) ((Mask4) (x) & ~SIGN4))
 #define COPYSIGN4(x, y) CHOICE4(SIGN4, y, x)
+
+/* A root has no operator; one of a vector takes little more than one of a number. */
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_ia32_sqrtpd256)
+#define SQRT4(x) ((Vector4) __builtin_ia32_sqrtpd256(x))
+#endif
+#endif
+#ifndef SQRT4
 #define SQRT4(x) ((Vector4){sqrt((x)[0]), sqrt((x)[1]), sqrt((x)[2]), sqrt((x)[3])})
+#endif

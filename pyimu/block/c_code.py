@@ -43,6 +43,14 @@ _COPIED = re.compile(
 """A work vector that becomes a result, or a part of one."""
 
 
+_ENTRIES_SET = re.compile(
+    r"^  casadi_copy\((wr\d+), (\d+), (w\d+)\);\n"
+    r"(  for \(cs=.* i=\(int\) \*cr\+\+; if \(i>=0 && i<\2\)) \3\[i\] = \*cs; \}\n",
+    re.MULTILINE,
+)
+"""A work vector that is a part of an argument but for a few entries."""
+
+
 Body = Callable[[ca.Function], str | None]
 """What writes a function's body; None where casadi's stays."""
 
@@ -61,6 +69,34 @@ def c_code(name: str, functions: Iterable[ca.Function], body: Body = straight) -
     functions_in_c = _FUNCTION.split(_IF_GIVEN.sub(r"\2;", text))
     found = "".join(_in_place(function) for function in functions_in_c)
     return found if _LEFT_OUT.search(found) else _with_bodies(found, _by_name(functions), body)
+
+
+def with_entries_set(text: str) -> str:
+    """The C ``text`` of a step whose first result, where it is the first argument but for a few
+    entries, has only these written: into both.
+
+    It serves who begins with both alike, and gives what was the argument as the place of the next
+    result. A ring of which each sample writes one entry is then never copied.
+    """
+    functions = _FUNCTION.split(text)
+    return "".join(map(_entries_set, functions))
+
+
+def _entries_set(function: str) -> str:
+    found = _ENTRIES_SET.search(function)
+    if found is None or not function.startswith("static int casadi_f0("):
+        return function
+    taken, _, made, loop = found.groups()
+    source = re.search(rf"^  {taken} = (wr\d+)\+(\d+);", function, re.MULTILINE)
+    if source is None:
+        return function
+    whole, at = source.groups()
+    same = f"  {whole} = arg[0]" in function and f"*{made}=res[0] ? res[0]+{at} :" in function
+    after = function.partition(found[0])[2]
+    if not same or re.search(r"\bwr\d|\barg\d*\[", after):  # which may read the argument
+        return function
+    both = f"{loop} {made}[i] = ((casadi_real *) {taken})[i] = *cs; }}\n"
+    return function.replace(found[0], both)
 
 
 def _by_name(functions: Iterable[ca.Function]) -> dict[str, ca.Function]:

@@ -24,7 +24,7 @@ from pathlib import Path
 import casadi as ca
 import numpy as np
 
-from pyimu.block.c_code import Body, c_code
+from pyimu.block.c_code import Body, c_code, with_entries_set
 from pyimu.block.cache import keep, kept, key_of
 from pyimu.block.prepared import Prepared
 from pyimu.block.straight import straight
@@ -181,7 +181,7 @@ def _source(functions: list[ca.Function], body: Body = straight) -> str:
     }
     sizes |= {"CONSTANTS": f.name() for f in constants}
     return (
-        c_code("step.c", functions, body)
+        with_entries_set(c_code("step.c", functions, body))
         + "".join(f"#define {name} {value}\n" for name, value in sizes.items())
         + '#include "loop.h"\n'
     )

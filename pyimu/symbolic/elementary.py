@@ -124,7 +124,7 @@ def arc_tangent(y, x):
     square = t * t
     angle = (
         t
-        + t * (square * _horner(square, TANGENT_UPPER) / _horner(square, TANGENT_LOWER))
+        + t * (square * _estrin(square, TANGENT_UPPER) / _estrin(square, TANGENT_LOWER))
         + large * (pi / 4)
     )
     # The magnitude of a difference is the one or the other, without a choice.
@@ -230,3 +230,16 @@ def _horner(x, coefficients: Sequence[float]):
     for coefficient in coefficients[1:]:
         total = total * x + coefficient
     return total
+
+
+def _estrin(x, coefficients: Sequence[float]):
+    """The same as ``_horner`` by pairs, in fewer operations one after the other (Estrin 1960).
+
+    A filter's step ends with its angles, and the next one waits as long as these do.
+    """
+    while len(coefficients) > 1:
+        alone = len(coefficients) % 2
+        pairs = zip(coefficients[alone::2], coefficients[alone + 1 :: 2], strict=True)
+        coefficients = [*coefficients[:alone], *(a * x + b for a, b in pairs)]
+        x = x * x
+    return coefficients[0]

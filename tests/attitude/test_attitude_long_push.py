@@ -101,7 +101,7 @@ def pushed(level: float, own: float = 0.0, across: float = 0.0, seconds: float =
     push = LongPush.start()
     state = ca.SX.sym("x", 3)
     now = LongPush(state[:2], state[2])
-    after = followed(now, ca.vertcat(level, 0), own, across, 1.0, 1, 1, H)
+    after = followed(now, ca.vertcat(level, 0), own, across, 1.0, H)
     step = ca.Function("step", [state], [ca.vertcat(*after.pack())])
     last = step.mapaccum(round(seconds / H))(ca.vertcat(*push.pack()))
     return float(last[2, -1])

@@ -96,7 +96,7 @@ def test_fast_filter_of_a_calibrated_gyro_is_that_which_knows_of_scale_factors()
     u, fast = inputs(6000, gyro=gyro, accel=accel), attitude_ukf(part())
     p = parameters(fast, std0=np.full(6, 0.01), scale_std=0.0, axes_std=0.0)
     state = fast.initial(fast.start_inputs, p)[0].full().ravel()
-    scales = Layout(Compensation(part())).rings - 5
+    scales = Layout(Compensation(part())).motion - 5
     said = state.copy()
     said[scales] = 1
     (y, after), (want, other) = (fast.run(u, p=p, state=s) for s in (state, said))

@@ -132,6 +132,29 @@ def test_a_result_that_nobody_asks_for_is_made_nowhere():
     np.testing.assert_array_equal(state, last)
 
 
+@pytest.mark.parametrize("reads_after", [False, True])
+def test_a_ring_of_which_each_sample_writes_an_entry_is_not_copied(reads_after):
+    """Unless the step reads of the state before the sample what it has written."""
+    s, u, p, w, h = symbols = [
+        ca.MX.sym(n, k) for n, k in (("s", 40), ("u", 2), ("p", 1), ("w", 2), ("h", 1))
+    ]
+    place, ring = s[0], s[1:]
+    head, oldest = ca.fmod(place + 1, 39), ring.nz[ca.fmod(place + 1, 39)]
+    ring.nz[place] = u[0] + oldest
+    last = ca.sum1(s[1:]) if reads_after else u[1]
+    step = ca.Function("step", symbols, [ca.vertcat(head, ring), ca.vertcat(oldest, last)])
+    copied = "casadi_copy(wr" in native._source([step])
+    assert copied == reads_after
+    block = replace(toy(), step=step)
+    u, state = np.random.default_rng(5).standard_normal((301, 2)), np.arange(40.0)
+    after, want = state.copy(), np.empty((301, 2))
+    step_through(step, after, u, block.start, np.zeros((301, 2)), np.array([0.01]), want)
+    run = Run(block, 301, state=state)
+    pieces = [run.advance(u[a:b]) for a, b in ((0, 1), (1, 100), (100, 301))]
+    np.testing.assert_array_equal(np.vstack(pieces), want)
+    np.testing.assert_array_equal(run.state, after)
+
+
 def test_greater_and_lesser_of_nan_infinity_and_zeros_are_those_of_the_virtual_machine():
     values = [np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0, -1.0]
     u = np.array([(a, b) for a in values for b in values])

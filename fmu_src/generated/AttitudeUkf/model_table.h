@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{c7dc057c-b266-f050-7f56-ead816a89445}"
-#define MODEL_TOKEN_FMI3 "{39cf5a5e-acd6-09ce-d829-b4bfc4f50486}"
+#define MODEL_TOKEN_FMI2 "{317b1c69-79ae-725e-c0d1-0baf01c7a305}"
+#define MODEL_TOKEN_FMI3 "{3961bd6a-3720-95d4-4466-5d619857adf7}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -17,20 +17,20 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 63,
     N_OUTPUTS = 21,
-    N_STATES = 339,
-    N_CONSTANTS = 123,
+    N_STATES = 350,
+    N_CONSTANTS = 106,
     N_NOISE = 0,
     N_VARIABLES = 104
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3021 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3090 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 806668 };
+enum { MODEL_MOST_SAMPLES = 793314 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

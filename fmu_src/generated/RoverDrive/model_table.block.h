@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{fc26ca26-4cb7-1e2e-0fd8-478be8f05751}"
-#define MODEL_TOKEN_FMI3 "{804a7aa0-4cc4-44d3-e919-237e0b27fa42}"
+#define MODEL_TOKEN_FMI2 "{23feceae-9239-feed-6cc6-a0492d068fa3}"
+#define MODEL_TOKEN_FMI3 "{30b4ecc5-961d-3d20-22f9-71357a39dd38}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -27,14 +27,14 @@ enum {
 enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 673 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 1493577 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 1489129 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 1493577 };
+enum { MODEL_MOST_SAMPLES = 1489129 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 1493577.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 1489129.0},
     {"speed_command", KIND_REAL, ROLE_INPUT, 0, 1, -INFINITY, INFINITY},
     {"turn_rate_command", KIND_REAL, ROLE_INPUT, 1, 1, -INFINITY, INFINITY},
     {"drive", KIND_INTEGER, ROLE_FIXED, 0, 1, 0.0, 4.0},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "RoverDrive"
-#define MODEL_TOKEN_FMI2 "{d71da6e1-d444-15a7-0dc2-7d1391081930}"
-#define MODEL_TOKEN_FMI3 "{ea1366c2-5dd8-5ba9-de2d-87ca24e21cfc}"
+#define MODEL_TOKEN_FMI2 "{8e50aaee-ec14-024a-dd3f-9c652e2f2d48}"
+#define MODEL_TOKEN_FMI3 "{38cd6c37-1232-7bea-f281-fe6192bde396}"
 #define MODEL_LIMITS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -30,7 +30,7 @@ enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 673 };
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 1493577 };
+enum { MODEL_MOST_SAMPLES = 1489129 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

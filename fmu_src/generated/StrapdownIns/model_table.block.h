@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{832837fb-a2aa-159c-8dee-3ceb63a9cbf6}"
-#define MODEL_TOKEN_FMI3 "{1b527c47-f126-5156-6fc2-382a804ae0df}"
+#define MODEL_TOKEN_FMI2 "{62f8e794-aa1b-80ea-0a45-4bd79a2428a2}"
+#define MODEL_TOKEN_FMI3 "{6c9c9572-87d3-b06c-78c6-c886e0eee0fe}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -26,14 +26,14 @@ enum {
 enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 2857 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 456121 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 455899 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 456121 };
+enum { MODEL_MOST_SAMPLES = 455899 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 456121.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 455899.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{ea8e725f-0783-368d-fa30-5ccc68c91e23}"
-#define MODEL_TOKEN_FMI3 "{9e5761a0-763f-38a6-ff17-f9ab97f3dd1f}"
+#define MODEL_TOKEN_FMI2 "{4840a036-6745-d864-79ca-598a2c74bc48}"
+#define MODEL_TOKEN_FMI3 "{d1a7ea23-858d-dad7-b797-64389f5b63c5}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -29,7 +29,7 @@ enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 2857 };
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 456121 };
+enum { MODEL_MOST_SAMPLES = 455899 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

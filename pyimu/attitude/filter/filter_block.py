@@ -68,24 +68,32 @@ def inputs_of_the_sample(layout: Layout, symbols: list[ca.MX]) -> ca.MX:
 
 
 def step_function(
-    layout: Layout, symbols: list[ca.MX], estimate, memory, yaw, field, y, c: ca.MX | None = None
+    layout: Layout,
+    symbols: list[ca.MX],
+    estimate,
+    memory,
+    motion,
+    yaw,
+    field,
+    y,
+    c: ca.MX | None = None,
 ) -> ca.Function:
     """The step ``(s, u, p, w, h) -> (s_next, y)`` of the block, without noise.
 
-    ``symbols`` are s, u, p and h. ``estimate``, ``memory`` and ``field`` are the columns after the
-    sample; its ``yaw`` and its variance about the vertical take their slot in the rings. Where they
-    depend on constants ``c``, these are a last argument.
+    ``symbols`` are s, u, p and h. ``estimate``, ``memory``, ``motion`` and ``field`` are the
+    columns after the sample; its ``yaw`` and its variance about the vertical take their slot in the
+    rings. Where they depend on constants ``c``, these are a last argument.
     """
     s, u, p, h = symbols
     if layout.compensation.shows_now:
-        y = shown_now(layout)(estimate, memory, y, p, h)
+        y = shown_now(layout)(estimate, ca.vertcat(memory, motion), y, p, h)
     vertical_noise, slot = memory[-4], memory[-3]
     rings = s[layout.rings : layout.field]
     rings.nz[slot + ca.DM([0, late_heading.SLOTS])] = ca.vertcat(yaw, vertical_noise)
     return plain_function(
         "step",
         [s, u, p, ca.MX.sym("w", 0, 1), h, *([] if c is None else [c])],
-        [ca.vertcat(estimate, memory, rings, field), y],
+        [ca.vertcat(estimate, memory, motion, rings, field), y],
         ["s", "u", "p", "w", "h", *([] if c is None else ["c"])],
         ["s_next", "y"],
     )

@@ -73,8 +73,8 @@ def by_heading(layout: Layout) -> ca.Function:
         s,
         layout.rings,
         ca.fmin(ca.fmax(samples, 1), late_heading.oldest(each)),
-        s[layout.rings - 3],
-        s[layout.rings - 2],
+        s[layout.motion - 3],
+        s[layout.motion - 2],
         each,
     )
     after = _past_heading()(x, neighbours, heading, samples, each, rate, vertical_noise)

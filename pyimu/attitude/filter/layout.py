@@ -10,7 +10,7 @@ import casadi as ca
 from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.field import FIELD
-from pyimu.attitude.filter.memory import ESTIMATE, WORKING, memory_sizes
+from pyimu.attitude.filter.memory import ESTIMATE, MOTION, WORKING, memory_sizes
 from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.variables import INPUTS, OWN_PARAMETERS
 from pyimu.block.variables import Variable
@@ -145,6 +145,11 @@ class Layout:
         return (*own, *part.gyro.variables, *part.accel.variables)
 
     @cached_property
+    def motion(self) -> int:
+        """Where in the state what is known of the motion begins, with which the memory ends."""
+        return self.rings - MOTION
+
+    @cached_property
     def rings(self) -> int:
         """Where in the state the two rings of past yaws and past ``vertical_noise`` begin."""
         return ESTIMATE + sum(memory_sizes(self.compensation))
@@ -158,13 +163,15 @@ class Layout:
     def sizes(self) -> dict[str, int]:
         """The size of each argument by name.
 
-        The ``estimate`` and the ``memory`` that follows it in the state ``s``, the working estimate
-        ``x``, the inputs ``u``, the parameters ``p``, the sample period ``h``; the compensated
-        ``rate``, the force that stands for ``gravity``, the ``flags``, ``vertical_noise``.
+        The ``estimate`` and the ``memory`` that follows it in the state ``s``, with the ``motion``
+        that this ends with; the working estimate ``x``, the inputs ``u``, the parameters ``p``, the
+        sample period ``h``; the compensated ``rate``, the force that stands for ``gravity``, the
+        ``flags``, ``vertical_noise``.
         """
         return {
             "estimate": ESTIMATE,
             "memory": self.rings - ESTIMATE,
+            "motion": MOTION,
             "s": self.field + FIELD,
             "x": WORKING,
             "u": len(self.inputs),

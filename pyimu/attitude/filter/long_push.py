@@ -58,18 +58,17 @@ SIZES = (2, 1)
 """Of what ``LongPush.pack`` gives."""
 
 
-def followed(before: LongPush, level, own, across, time, goes_on, used, h) -> LongPush:
-    """The same after one more sample.
+def followed(before: LongPush, level, own, across, time, span) -> LongPush:
+    """The same after one more look.
 
-    ``level`` (2,) m/s^2 is the force east and north by the estimate, ``own`` (m/s^2)^2 the variance
-    that its tilt makes of an axis, ``across`` (m/s)^2 that of the velocity, of a correlation
-    ``time`` in s. ``goes_on`` and ``used`` 0 or 1 say whether the body may be pushed, and whether
-    the sample counts.
+    ``level`` (2,) m/s^2 is the mean force east and north by the estimate over a ``span`` in s,
+    ``own`` (m/s^2)^2 the variance that its tilt makes of an axis, ``across`` (m/s)^2 that of the
+    velocity, of a correlation ``time`` in s.
     """
-    span = OVER * time + h
-    force = goes_on * (before.force + used * h / span * (level - before.force))
-    bounded = EXCEEDS * (own + across / span**2) + LEAST**2
+    whole = OVER * time + span
+    force = before.force + span / whole * (level - before.force)
+    bounded = EXCEEDS * (own + across / whole**2) + LEAST**2
     found = ca.fmax(ca.sumsqr(force) / 2 - bounded, 0)
-    rises, falls = (h * reciprocal(t * time + h) for t in (RISE, FALL))
+    rises, falls = (span * reciprocal(t * time + span) for t in (RISE, FALL))
     gain = ca.if_else(found > before.variance, rises, falls)
-    return LongPush(force, before.variance + used * gain * (found - before.variance))
+    return LongPush(force, before.variance + gain * (found - before.variance))

@@ -21,8 +21,7 @@ from pyimu.attitude.filter.variables import (
     LEAST_N,
     OWN_PARAMETERS,
 )
-from pyimu.attitude.filter.velocity import SIZES as MOTION
-from pyimu.attitude.filter.velocity import Motion, first_std
+from pyimu.attitude.filter.velocity import SIZES, Motion, first_std
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import pack, unpack
@@ -54,6 +53,9 @@ HOLD = 1.0
 WORKING = ESTIMATE + REPORTED
 """Numbers of the working estimate, which the updates take and give."""
 
+MOTION = sum(SIZES)
+"""Numbers of a ``Motion``, which the memory ends with."""
+
 BIAS_VARIANCE = tuple(7 + i for i in (15, 18, 20))
 """Where the state has the variances of the bias: after q (4) and bias (3) comes the upper triangle
 of the covariance, row by row."""
@@ -61,7 +63,7 @@ of the covariance, row by row."""
 
 @dataclass(frozen=True)
 class Memory:
-    """What is kept from sample to sample, in the order of the state.
+    """What is kept from sample to sample, in the order of the state, in which ``motion`` is last.
 
     ``safe`` and ``later`` (6,) are the bias (3,) rad/s and its variance as ``stillness.kept`` has
     them. ``held`` is the last good gyro (3), accel (3), temperature and further inputs.
@@ -123,22 +125,21 @@ class Memory:
         scaled = ca.reshape(column[SCALED], WHOLE, AXES)
         return Estimate(column[:4], column[4:7], ca.SX(0, 1), unpack(column[7:28], N), scaled)
 
-    def pack_memory(self, without_faded: bool = True) -> ca.SX:
-        """All but the estimate as a column; ``without_faded``, what has faded is zero in it."""
+    def pack_memory(self, without_faded: bool = True) -> tuple[ca.SX, ca.SX]:
+        """All but the estimate as two columns, of which the second one is the ``motion``;
+        ``without_faded``, what has faded is zero in them.
+        """
         kept = faded if without_faded else lambda value: value
         quasi = (self.quasi.magnitude, self.quasi.variance)
         size = (self.size.size, self.size.learnt, self.size.doubted)
         mean = (kept(self.mean.force), kept(self.mean.scatter), self.mean.span)
-        across, along, *fading = self.motion.pack()
-        motion = (across, along, *(kept(v) for v in fading))
         sensors = (self.held, self.lost_for, self.same_for, self.sensors)
         still = self.stillness.pack()
-        return ca.densify(
+        memory = ca.densify(
             ca.vertcat(
                 *quasi,
                 *size,
                 *mean,
-                *motion,
                 *still,
                 self.safe,
                 self.later,
@@ -154,6 +155,7 @@ class Memory:
                 self.field,
             )
         )
+        return memory, self.motion.pack(kept)
 
     @classmethod
     def unpack(cls, estimate, column, compensation: Compensation) -> Memory:
@@ -161,10 +163,12 @@ class Memory:
         ends = np.cumsum([0, *memory_sizes(compensation)]).tolist()
         parts = ca.vertsplit(column, ends)
         quasi, size = QuasiStatic(*parts[:2]), GravitySize(*parts[2:5])
-        mean = MeanForce(*parts[5:8])
-        after = 8 + len(MOTION)
-        motion, others = Motion.unpack(parts[8:after]), parts[after + len(STILLNESS) :]
-        still = Stillness(*parts[after : after + len(STILLNESS)])
+        mean, after = MeanForce(*parts[5:8]), 8 + len(STILLNESS)
+        still, others, motion = (
+            Stillness(*parts[8:after]),
+            parts[after:-1],
+            Motion.unpack(parts[-1]),
+        )
         return cls(cls.estimate_of(estimate), quasi, size, mean, motion, still, *others)
 
 
@@ -172,7 +176,7 @@ def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
     own = held, 3, 8, len(compensation.start), 1, 1, 1, 1, 3, 1, 1, 2, 1
-    return 1, 1, 1, 1, 1, 3, 1, 1, *MOTION, *STILLNESS, 6, 6, *own
+    return 1, 1, 1, 1, 1, 3, 1, 1, *STILLNESS, 6, 6, *own, MOTION
 
 
 def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
@@ -204,7 +208,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         field=ca.SX(0),
     )
     rings, field = late_heading.empty(), Field.start(at).pack()
-    state = (Memory.pack_estimate(estimate), 0, memory.pack_memory(), rings, field)
+    state = (Memory.pack_estimate(estimate), 0, *memory.pack_memory(), rings, field)
     return estimate, ca.vertcat(*state)
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
-from pyimu.attitude.filter import late_heading, long_push, turning
+from pyimu.attitude.filter import late_heading, turning
 from pyimu.attitude.filter.field import is_magnetometer
 from pyimu.attitude.filter.gravity_update import (
     Body,
@@ -16,17 +16,14 @@ from pyimu.attitude.filter.gravity_update import (
     is_pushed,
     is_tilt_known,
     scaled_tilt,
-    tilt_variance,
     vertical,
     white_variance,
 )
 from pyimu.attitude.filter.layout import CALIBRATED, EVERY, Flags, Layout
-from pyimu.attitude.filter.long_push import LongPush
 from pyimu.attitude.filter.memory import ESTIMATE, FADING, HOLD, REPORTED, Memory
 from pyimu.attitude.filter.quasi_static import MEAN_TIME, where
 from pyimu.attitude.filter.sample import Sample, unknown_turn
 from pyimu.attitude.filter.settings import Settings
-from pyimu.attitude.filter.slow_motion import Bounds
 from pyimu.attitude.filter.stillness import (
     CALM,
     SLOW,
@@ -55,7 +52,7 @@ from pyimu.attitude.filter.unscented import (
     Estimate,
 )
 from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_K, LEAST_N, MAG
-from pyimu.attitude.filter.velocity import followed
+from pyimu.attitude.filter.velocity import with_sample
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal
 from pyimu.symbolic.missing import faded
@@ -346,7 +343,8 @@ def _turning(at: Instant, sample: Sample):
 def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, noise) -> list[ca.SX]:
     """The outputs of a prediction, each as a column.
 
-    The working estimate, the memory after the sample, the compensated rate, the measurement of
+    The working estimate, the memory after the sample but for the motion, the motion and whether it
+    is to be looked at (``pyimu.attitude.filter.look``), the compensated rate, the measurement of
     gravity, and the flags.
 
     ``x`` is the propagated estimate, ``turned`` (3, 3) the turn in inertial space from old body
@@ -361,13 +359,12 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     driven = at.driven(speed_for)
     goes_on = known * (1 - rest.resting) * (1 - driven)
     used = where(sample.force_valid, goes_on)
-    white = ca.sum1(white_variance(at.settings, at.h)) * (at.h / 3)
-    bounds = Bounds(scalar["motion_share"], white, scalar["motion_time"])
     may = (1 - rest.surely) * (1 - at.stationary) * (1 - driven)
-    tilted = ca.sum2(scaled_tilt(x, vertical(x)) ** 2)
-    long = _pushed_for_long(at, sample, x, tilted, may)
     moves = scalar["accel_std"] > 0
-    motion, bounded = followed(kept.motion, x, used, goes_on, moves, bounds, long, at.h)
+    pushes = where(sample.force_valid, may * moves)
+    motion, bounded = with_sample(
+        kept.motion, x, sample.force, used, pushes, goes_on, may * moves, moves, at.h
+    )
     rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
     body = Body(rests, rest.still.slow_force, rest.sure, driven)
     force = inclination(kept, sample, x, bounded, turned, at.settings, at.h, body)
@@ -394,7 +391,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         rest.calm,
         _turning(at, sample),
         rest.known,
-        tilted * (bounded.by_scale / SCALE_TIME),
+        ca.sum2(scaled_tilt(x, vertical(x)) ** 2) * (motion.by_scale / SCALE_TIME),
         ca.fmax(kept.scales, _scales(at)),
         vertical_noise,
         ca.vertcat(*place),
@@ -408,27 +405,12 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     flags = flags.with_speed(speed, driven, was + driven - 2 * was * driven)
     return [
         working,
-        after.pack_memory(sample.faded),
+        *after.pack_memory(sample.faded),
+        motion.gathered.is_due(scalar["motion_time"], at.h),
         sample.rate,
         force.measurement.pack(),
         flags.pack(),
     ]
-
-
-def _pushed_for_long(at: Instant, sample: Sample, x: Estimate, tilted, goes_on) -> LongPush:
-    """The pushes that last, by the force of a sample.
-
-    ``tilted`` (3,) rad^2 is the variance of the tilt by the gyro's scale factors; ``goes_on`` 0 or
-    1 says whether there may be any.
-    """
-    scalar, motion = at.settings.scalar, at.memory.motion
-    moves = goes_on * (scalar["accel_std"] > 0)
-    level = quaternion.to_matrix(x.q)[:2, :] @ sample.force
-    tilt = tilt_variance(x.covariance, vertical(x)) + ca.sum1(tilted) / 2
-    own = scalar["gravity"] ** 2 * tilt
-    used = where(sample.force_valid, moves)
-    time = scalar["motion_time"]
-    return long_push.followed(motion.long, level, own, motion.across, time, moves, used, at.h)
 
 
 def _flags(

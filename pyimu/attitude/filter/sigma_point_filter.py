@@ -28,6 +28,7 @@ from pyimu.attitude.filter.gravity_update import (
     scaled_in_gravity,
 )
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
+from pyimu.attitude.filter.look import look
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.prediction import (
     ARGUMENTS,
@@ -80,25 +81,26 @@ def _step(layout: Layout) -> ca.Function:
     """Check each sample number by number, predict, and correct by what its flags ask for."""
     s, _, p, h = symbols = layout.symbols(ca.MX, "s u p h")
     u = inputs_of_the_sample(layout, symbols)
-    x, memory, rate, gravity, packed = _predict(layout)(
+    x, memory, motion, due, rate, gravity, packed = _predict(layout)(
         s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
     )
     flags = Flags.unpack(packed)
-    before = x
+    before, motion = x, where(due, look(layout), motion, x, p, h)
     x = bounded_where_lost(x, flags)
     x = where(flags.gravity, _by_gravity(), x, gravity)
     x = where(flags.velocity, by_velocity(correct), x, gravity)
     x = after_gravity(layout, by_zero_rate(layout), x, s, u, p, h, rate, gravity, flags)
     x, field = after_others(layout, by_field(layout), x, before, s, u, p, h, rate, packed)
     estimate, yaw, y = finish()(x, packed)
-    return step_function(layout, symbols, estimate, memory, yaw, field, y)
+    return step_function(layout, symbols, estimate, memory, motion, yaw, field, y)
 
 
 # Prediction
 
 
 def _predict(layout: Layout) -> ca.Function:
-    """``estimate, memory, u, p, h -> x, memory, rate, gravity, flags``, as ``predicted`` has them.
+    """``estimate, memory, u, p, h -> x, memory, motion, due, rate, gravity, flags``, as
+    ``predicted`` has them.
 
     A stationary body keeps its attitude: its gyro then measures the bias, and must not be used
     twice.

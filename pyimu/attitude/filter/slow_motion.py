@@ -60,7 +60,7 @@ class SlowMotion:
     ``low`` (4,) m/s are the two low passes of its parts east and north, ``lagged`` m^2/s the
     density of a velocity of its size and of the correlation time T, as late as these; ``seen`` and
     ``expected`` m^2/s are the means of the density that they show and of that one. ``used`` m^2/s
-    is the density with which the velocity was measured last.
+    is the density with which the velocity is measured, ``share`` how much that is of 2 T s^2.
     """
 
     low: ca.SX
@@ -68,18 +68,19 @@ class SlowMotion:
     seen: ca.SX
     expected: ca.SX
     used: ca.SX
+    share: ca.SX
 
     @classmethod
     def start(cls, variance, time) -> SlowMotion:
         """That before the first sample, of a velocity with a ``variance`` in (m/s)^2."""
         little = 2 * time * START
-        return cls(ca.SX.zeros(4), little, little, little, 2 * time * variance)
+        return cls(ca.SX.zeros(4), little, little, little, 2 * time * variance, ca.SX(1))
 
     def pack(self) -> tuple:
         return tuple(vars(self).values())
 
 
-SIZES = (4, 1, 1, 1, 1)
+SIZES = (4, 1, 1, 1, 1, 1)
 """Of what ``SlowMotion.pack`` gives."""
 
 
@@ -99,32 +100,36 @@ class Bounds:
         return self.noise * LEAST**2
 
 
-def followed(before: SlowMotion, level, variance, drift, own, bounds: Bounds, used, h):
-    """The slow motion after one more sample, and the share of 2 T s^2 that its density has.
+def followed(
+    before: SlowMotion, level, variance, drift, own, bounds: Bounds, span, h
+) -> SlowMotion:
+    """The slow motion after one more look.
 
-    ``level`` (2,) m/s is the velocity east and north before its measurement, ``own`` (m/s)^2 its
-    variance in the filter, ``variance`` (m/s)^2 that of the body's velocity and ``drift`` (m/s)^2
-    what it has beside. ``used`` 0 or 1 says whether the sample counts.
+    ``level`` (2,) m/s is the mean velocity east and north over a ``span`` in s, before the
+    measurements of its samples, of period ``h`` s. ``own`` (m/s)^2 is the variance of a sample's
+    velocity in the filter, ``variance`` (m/s)^2 that of the body's velocity and ``drift`` (m/s)^2
+    what it has beside.
     """
     whole = 2 * bounds.time * variance
-    follows, least, most = SLOWNESS * before.used, 2 * h, LONGEST * bounds.time
+    follows, least, most = SLOWNESS * before.used, 2 * span, LONGEST * bounds.time
     time = ca.fmin(ca.fmax(follows * reciprocal(own + TINY), least), most)
 
     def gain_over(times):
-        """h / (``times`` time + h), without waiting for the quotient that the time is."""
-        within = h * (own + TINY) * reciprocal(times * follows + h * (own + TINY))
-        return ca.fmin(ca.fmax(within, h / (times * most + h)), h / (times * least + h))
+        """span / (``times`` time + span), without waiting for the quotient that the time is."""
+        within = span * (own + TINY) * reciprocal(times * follows + span * (own + TINY))
+        longest, shortest = span / (times * most + span), 1 / (2 * times + 1)
+        return ca.fmin(ca.fmax(within, longest), shortest)
 
-    gain, slow_gain = gain_over(1.0), used * gain_over(SPAN)
-    first = before.low[:2] + used * gain * (level - before.low[:2])
-    second = before.low[2:] + used * gain * (first - before.low[2:])
+    gain, slow_gain = gain_over(1.0), gain_over(SPAN)
+    first = before.low[:2] + gain * (level - before.low[:2])
+    second = before.low[2:] + gain * (first - before.low[2:])
     found = 2 * time * ca.sumsqr(first - second) - own * h
-    lagged = before.lagged + used * gain * (whole - before.lagged)
+    lagged = before.lagged + gain * (whole - before.lagged)
     seen = before.seen + slow_gain * (found - before.seen)
     expected = before.expected + slow_gain * (lagged - before.expected)
     prior = PRIOR * whole * ca.fmax(1, whole * reciprocal(expected + TINY))
     share = (ca.fmax(seen, 0) + prior) * reciprocal(expected + prior + TINY)
     share = ca.fmin(ca.fmax(share, bounds.share), 1)
     density = ca.fmax(ca.fmax(whole * share, PUSHED * bounds.time * drift), bounds.least)
-    after = SlowMotion(ca.vertcat(first, second), lagged, seen, expected, density)
-    return after, density * reciprocal(whole + TINY)
+    used = density * reciprocal(whole + TINY)
+    return SlowMotion(ca.vertcat(first, second), lagged, seen, expected, density, used)

@@ -45,6 +45,7 @@ from pyimu.attitude.filter.gravity_update import (
     vertical,
 )
 from pyimu.attitude.filter.layout import FLAGS, GRAVITY, Flags, GravityMeasurement, Layout
+from pyimu.attitude.filter.look import look
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
 from pyimu.attitude.filter.prediction import ARGUMENTS, Instant, added_noise, predicted, rest_of
 from pyimu.attitude.filter.sample import look_closely
@@ -101,10 +102,11 @@ def square_root_filter(part: Part) -> Block:
 def _step(layout: Layout) -> ca.Function:
     """The steps of ``sigma_point_filter`` on the factor."""
     s, u, p, h = symbols = layout.symbols(ca.MX, "s u p h")
-    x, memory, rate, gravity, packed = _predict(layout)(
+    x, memory, motion, due, rate, gravity, packed = _predict(layout)(
         s[:ESTIMATE], s[ESTIMATE : layout.rings], u, p, h
     )
     flags, before = Flags.unpack(packed), _to_covariance()(x)
+    motion = where(due, look(layout), motion, before, p, h)
     x = where(flags.lost, _bounded_where_lost(), x, packed)
     x = where(flags.gravity, _by_gravity(), x, gravity)
     x = where(flags.velocity, _by_velocity(), x, gravity)
@@ -116,7 +118,7 @@ def _step(layout: Layout) -> ca.Function:
     x = where(flags.field, _factor_of(), x, whole)
     shown, yaw, y = finish()(whole, packed)
     estimate = ca.vertcat(shown[:4], x[4:ESTIMATE])
-    return step_function(layout, symbols, estimate, memory, yaw, field, y)
+    return step_function(layout, symbols, estimate, memory, motion, yaw, field, y)
 
 
 # The estimate and its factor
@@ -185,7 +187,8 @@ def _factor_of() -> ca.Function:
 
 
 def _predict(layout: Layout) -> ca.Function:
-    """``estimate, memory, u, p, h -> x, memory, rate, gravity, flags``, as ``predicted`` has them.
+    """``estimate, memory, u, p, h -> x, memory, motion, due, rate, gravity, flags``, as
+    ``predicted`` has them.
 
     The ``estimate`` and ``x`` have the factor.
     """

@@ -36,6 +36,7 @@ from pyimu.attitude.filter.gravity_update import (
     scaled_in_gravity,
 )
 from pyimu.attitude.filter.layout import GRAVITY, Flags, GravityMeasurement, Layout
+from pyimu.attitude.filter.look import look
 from pyimu.attitude.filter.memory import ESTIMATE, SCALED, WORKING, Memory
 from pyimu.attitude.filter.passed import PASSED, Transition, passed
 from pyimu.attitude.filter.prediction import (
@@ -109,13 +110,14 @@ def _step(layout: Layout, recorded: bool = False) -> Prepared:
     s, _, p, h = symbols = layout.symbols(ca.MX, "s u p h")
     constants, predict = _predict(layout, recorded)
     u, c = inputs_of_the_sample(layout, symbols), ca.MX.sym("c", constants.numel_out(0))
-    x, memory, rate, gravity, flags, *transition = predict(
+    x, memory, motion, due, rate, gravity, flags, *transition = predict(
         s[:ESTIMATE], s[ESTIMATE : layout.rings], u, c
     )
+    motion = where(due, look(layout), motion, x, p, h)
     estimate, yaw, y, field = _updates(layout)(flags[0], x, s, u, p, h, rate, gravity, flags)
     if recorded:
         y = passed(y, estimate, x, transition[0], Flags.unpack(flags))
-    step = step_function(layout, symbols, estimate, memory, yaw, field, y, c)
+    step = step_function(layout, symbols, estimate, memory, motion, yaw, field, y, c)
     return Prepared(constants, step)
 
 
@@ -123,8 +125,8 @@ def _step(layout: Layout, recorded: bool = False) -> Prepared:
 
 
 def _predict(layout: Layout, recorded: bool = False) -> tuple[ca.Function, ca.Function]:
-    """``p, h -> c`` and ``estimate, memory, u, c -> x, memory, rate, gravity, flags``, as
-    ``predicted`` has them.
+    """``p, h -> c`` and ``estimate, memory, u, c -> x, memory, motion, due, rate, gravity, flags``,
+    as ``predicted`` has them.
 
     Where it is ``recorded``, the transition of the error follows.
 

@@ -130,7 +130,8 @@ def finish() -> ca.Function:
     nis, *report = ca.vertsplit(given[ESTIMATE:])
     status = _status(flags, report, ca.diag(x.covariance)[:N])
     found = flags.quasi_static, nis * flags.quasi_static, status, flags.at_rest
-    y = outputs(replace(x, q=q), *found, flags.constant)
+    # What follows from the attitude need not wait for its length.
+    y = ca.vertcat(q, outputs(x, *found, flags.constant)[4:])
     level = (1 - 2 * (q[2] * q[2] + q[3] * q[3])) ** 2 + (
         2 * (q[1] * q[2] + q[0] * q[3])
     ) ** 2 > LEVEL**2

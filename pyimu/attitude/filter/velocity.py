@@ -14,12 +14,15 @@ out: of the second order.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 
 import casadi as ca
+import numpy as np
 
-from pyimu.attitude.filter import slow_motion
+from pyimu.attitude.filter import long_push, slow_motion
+from pyimu.attitude.filter.gathered import SIZES as GATHERED_SIZES
+from pyimu.attitude.filter.gathered import Gathered
 from pyimu.attitude.filter.long_push import SIZES as LONG_SIZES
 from pyimu.attitude.filter.long_push import LongPush
 from pyimu.attitude.filter.slow_motion import SIZES as SLOW_SIZES
@@ -109,7 +112,9 @@ class Motion:
     is the estimated velocity east and north less what is fast in it, ``drift`` (m/s)^2 its variance
     beyond ``DRIFTS`` times that of a bounded velocity. ``slowly`` is what is slow in it, ``known``
     over how many correlation times the run has shown it, ``WINDOW`` at most; ``long`` are the
-    pushes that last.
+    pushes that last. ``by_scale`` is which share of the tilt that the gyro's scale factors may have
+    made shows in the velocity, 0 to 1. ``gathered`` is what samples have shown since all that was
+    last followed.
     """
 
     across: ca.SX
@@ -117,8 +122,10 @@ class Motion:
     slow: ca.SX
     drift: ca.SX
     known: ca.SX
+    by_scale: ca.SX
     slowly: SlowMotion
     long: LongPush
+    gathered: Gathered
 
     @classmethod
     def start(cls, std, time) -> Motion:
@@ -126,21 +133,33 @@ class Motion:
         correlation ``time`` s.
         """
         first = std**2
-        slowly = SlowMotion.start(first, time)
-        return cls(first, first, ca.SX.zeros(2), ca.SX(0), ca.SX(0), slowly, LongPush.start())
+        none = ca.SX.zeros(2), ca.SX(0), ca.SX(0), ca.SX(0)
+        parts = SlowMotion.start(first, time), LongPush.start(), Gathered.start()
+        return cls(first, first, *none, *parts)
 
-    def pack(self) -> tuple:
-        """Its numbers, in the order of ``SIZES``."""
-        return (*list(vars(self).values())[:5], *self.slowly.pack(), *self.long.pack())
+    def pack(self, kept: Callable = lambda value: value) -> ca.SX:
+        """Its numbers as a column, in the order of ``SIZES``; ``kept`` is applied to those that may
+        fade.
+        """
+        across, along, *others = list(vars(self).values())[:OWN]
+        parts = self.slowly, self.long, self.gathered
+        fading = *others, *(v for part in parts for v in part.pack())
+        return ca.densify(ca.vertcat(across, along, *(kept(v) for v in fading)))
 
     @classmethod
-    def unpack(cls, parts) -> Motion:
+    def unpack(cls, column) -> Motion:
         """The inverse of ``pack``."""
-        after = 5 + len(SLOW_SIZES)
-        return cls(*parts[:5], SlowMotion(*parts[5:after]), LongPush(*parts[after:]))
+        parts = ca.vertsplit(column, np.cumsum([0, *SIZES]).tolist())
+        after = OWN + len(SLOW_SIZES)
+        last = after + len(LONG_SIZES)
+        slowly, long = SlowMotion(*parts[OWN:after]), LongPush(*parts[after:last])
+        return cls(*parts[:OWN], slowly, long, Gathered(*parts[last:]))
 
 
-SIZES = (1, 1, 2, 1, 1, *SLOW_SIZES, *LONG_SIZES)
+OWN = 6
+"""Parts of a ``Motion`` that have no parts."""
+
+SIZES = (1, 1, 2, 1, 1, 1, *SLOW_SIZES, *LONG_SIZES, *GATHERED_SIZES)
 """Of what ``Motion.pack`` gives."""
 
 
@@ -149,13 +168,11 @@ class Bounded:
     """The velocity of a body that stays in its place, as it is measured to be zero.
 
     ``variance`` (2,) (m/s)^2 across and along the vertical; ``slow`` is its density at low
-    frequency over that of the correlation time of the settings. ``by_scale`` is which share of the
-    tilt that the gyro's scale factors may have made shows in the velocity, 0 to 1.
+    frequency over that of the correlation time of the settings.
     """
 
     variance: ca.SX
     slow: ca.SX
-    by_scale: ca.SX
 
 
 def pushed(before: Estimate, after: Estimate, own, leak, push: Push) -> Estimate:
@@ -258,12 +275,36 @@ def covariance_of_motion(across, along, up):
     return symmetric(3, lambda i, j: across * (i == j) + (along - across) * up[i] * up[j])
 
 
-def followed(
-    motion: Motion, x: Estimate, used, goes_on, moves, bounds: Bounds, long: LongPush, h
+def with_sample(
+    motion: Motion, x: Estimate, force, used, pushes, goes_on, may, moves, h
 ) -> tuple[Motion, Bounded]:
-    """The motion after one more sample, whose velocity ``x`` has before its measurement.
+    """The motion with what one more sample shows of it, and how the velocity ``x`` has before its
+    measurement is measured.
 
-    With it how that velocity is measured.
+    A velocity that is much larger than what was found so far shows at once. ``force`` (3,) m/s^2 is
+    the sample's. ``used`` 0 or 1 says whether the sample counts and ``goes_on`` whether the motion
+    does, ``pushes`` and ``may`` the same of pushes that last, ``moves`` whether the body moves at
+    all.
+    """
+    v, axes = x.velocity, quaternion.to_matrix(x.q)
+    up, own = axes[2, :].T, x.covariance[6:, 6:]
+    above, own_along = ca.dot(up, v) ** 2, ca.dot(up, own @ up)
+    own_across = (ca.trace(own) - own_along) / 2
+    squares = ca.vertcat((ca.dot(v, v) - above) / 2 - own_across, above - own_along)
+    level, force = axes[:2, :] @ v, axes[:2, :] @ force
+    gathered = motion.gathered.with_sample(
+        level, squares, own_across, force, used, pushes, goes_on, may, h
+    )
+    seen = ca.vertcat(motion.across, motion.along)
+    variance = moves * ca.fmax(seen, squares * (1 / OUTLIER))
+    long = LongPush(may * motion.long.force, motion.long.variance)
+    slow, by_scale = goes_on * motion.slow, goes_on * motion.by_scale
+    after = replace(motion, slow=slow, by_scale=by_scale, long=long, gathered=gathered)
+    return after, Bounded(variance, motion.slowly.share)
+
+
+def followed(motion: Motion, x: Estimate, moves, bounds: Bounds, tilted, h) -> Motion:
+    """The motion after a look at what was ``gathered`` of it, with the estimate ``x`` of now.
 
     The mean square of the innovation, less the filter's own variance of it, is that of the
     measurement (Mehra 1972, section IV), here the velocity of the body: over ``WINDOW`` or ``RISE``
@@ -272,39 +313,35 @@ def followed(
     the density 2 T s^2 of the velocity and P h of the filter's own variance. What it has beyond
     ``DRIFTS`` times that, and times what the gyro's scale factors may make of it, and ``SLIGHT``,
     is a walk: accelerations that last. What a tilt by these scale factors makes of it is compared
-    with all of it but the bounded one's. ``used`` 0 or 1 says whether the sample counts, ``moves``
-    whether the body moves at all.
+    with all of it but the bounded one's. ``moves`` 0 or 1 says whether the body moves at all,
+    ``tilted`` (m/s^2)^2 is the variance that its tilt makes of the force on a level axis.
     """
-    v, axes, time = x.velocity, quaternion.to_matrix(x.q), bounds.time
-    level, up = axes[:2, :] @ v, axes[2, :].T
-    own, whole = x.covariance[6:, 6:], ca.dot(v, v)
-    above, own_along = ca.dot(up, v) ** 2, ca.dot(up, own @ up)
-    own_across = (ca.trace(own) - own_along) / 2
+    time, gathered = bounds.time, motion.gathered
+    level, squares, own, force = gathered.means()
+    span = gathered.span
     least = bounds.least / 2 * reciprocal(time + h)
     window = ca.fmin(motion.known + FIRST_TIME, WINDOW)
-    known = ca.fmin(motion.known + used * h * reciprocal(time + h), WINDOW)
+    known = ca.fmin(motion.known + span * reciprocal(time + span), WINDOW)
 
     def mean(before, found, fall, rise):
-        gain = ca.if_else(found > before, h / (rise * time + h), h / (fall * time + h))
-        return before + used * gain * (found - before)
+        gain = ca.if_else(found > before, span / (rise * time + span), span / (fall * time + span))
+        return before + gain * (found - before)
 
-    def grown(before, excess):
-        after = moves * ca.fmax(mean(before, excess, window, RISE), least)
-        return after, moves * ca.fmax(after, excess / OUTLIER)
-
-    excess = (whole - above) / 2 - own_across
-    across, seen_across = grown(motion.across, excess)
-    along, seen_along = grown(motion.along, above - own_along)
-    slow = goes_on * (motion.slow + used * h / (SLOW * time + h) * (level - motion.slow))
-    beyond, scaled = _beyond_bounded(slow, across, own_across, time, h), _by_scale(x, axes)
+    across, along = (
+        moves * ca.fmax(mean(before, squares[i], window, RISE), least)
+        for i, before in enumerate((motion.across, motion.along))
+    )
+    slow = motion.slow + span / (SLOW * time + span) * (level - motion.slow)
+    beyond = _beyond_bounded(slow, across, own, time, h)
+    scaled = _by_scale(x, quaternion.to_matrix(x.q))
     left = beyond - DRIFTS * scaled
     drift = moves * mean(motion.drift, ca.fmax(left, 0), DRIFT_WINDOW, DRIFT_RISE)
-    slowly, slow_share = slow_motion.followed(
-        motion.slowly, level, seen_across, drift, own_across, bounds, used, h
-    )
-    after = Motion(across, along, slow, drift, known, slowly, long)
+    seen = moves * ca.fmax(across, squares[0] * (1 / OUTLIER))
+    slowly = slow_motion.followed(motion.slowly, level, seen, drift, own, bounds, span, h)
     shown = ca.fmin(ca.fmax(beyond, 0) * reciprocal(scaled + TINY), 1)
-    return after, Bounded(ca.vertcat(seen_across, seen_along), slow_share, shown)
+    pushed_for = gathered.pushed_for
+    long = long_push.followed(motion.long, force, tilted, motion.across, time, pushed_for)
+    return Motion(across, along, slow, drift, known, shown, slowly, long, Gathered.start())
 
 
 def _beyond_bounded(slow, across, own_across, time, h):

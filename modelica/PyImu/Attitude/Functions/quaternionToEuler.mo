@@ -11,7 +11,7 @@ algorithm
   v2 := 1 - 2*(v1 + q[4]*q[4]);
   v3 := 2*(q[2]*q[3] + q[1]*q[4]);
   y[1] := atan2(2*(q[3]*q[4] + q[1]*q[2]), 1 - 2*(q[2]*q[2] + v1));
-  y[2] := atan2(2*(q[1]*q[3] - q[2]*q[4]), sqrt(v2*v2 + v3*v3));
+  y[2] := atan2(2*(q[1]*q[3] - q[2]*q[4]), max(sqrt(v2*v2 + v3*v3), 0));
   y[3] := atan2(v3, v2);
   annotation(Documentation(info="<html>
 <p>Roll, pitch, yaw (3,) in rad, the inverse of fromEuler for |pitch| &lt; pi/2.</p>
