@@ -36,6 +36,10 @@ SHOWN = 3.0
 NEARLY = 0.8
 """Share of a level above which an input is about to reach it, whatever the model still lacks."""
 
+NEAR = 0.01
+"""Share of a level by which samples at it may differ, beside their noise: what a part does after
+its converter stopped takes a little of the other axes in."""
+
 FINE = 0.25
 """Standard deviations of the noise that a step of the samples may have for their density to be seen
 within one of them."""
@@ -71,24 +75,26 @@ def _levels(sensor: Sensor) -> tuple[np.ndarray, Sensor]:
 def stops_there(fitted: Fit, axis: int) -> bool:
     """Whether the samples really stop at the level of an axis while the model's input is beyond it.
 
-    Few lie above, and most lie there. A reference that jumps leaves them far below. Where the input
-    is hardly ever beyond it, samples must lie piled up at the largest of all.
+    Few lie above, and most lie there, within ``NEAR`` of it and their noise. A reference that jumps
+    leaves them far below. Where the input is hardly ever beyond it, samples must lie piled up at
+    the largest of all.
     """
     levels, unlimited = _levels(fitted.sensor)
-    level, beyond, over, under = levels[axis], 0, 0, 0
+    level, beyond, over, near = levels[axis], 0, 0, 0
     for t in fitted.trials:
         u = reference_input(t, fitted.states[t.name])
         x = np.abs(predict(unlimited, u, t.segments, t.h)[:, axis])
         y, chance = np.abs(t.y[:, axis]), 4 * rest_noise(t)[axis]
-        least, most = 0.95 * level - chance, OVER * level + chance
+        most = OVER * level + chance
+        there = np.abs(y - level) < NEAR * level + chance
         for a, b in t.row_segments:
             outside = x[a:b] > OVER * level
             beyond += int(outside.sum())
             over += int((outside & (y[a:b] > most)).sum())
-            under += int((outside & (y[a:b] < least)).sum())
+            near += int((outside & there[a:b]).sum())
     if beyond < LEAST_AT_LEVEL:
         return pile(fitted, axis, level) is not None
-    return over < 0.2 * beyond and under < 0.5 * beyond
+    return over < 0.2 * beyond and near > 0.5 * beyond
 
 
 def pile(fitted: Fit, axis: int, level: float) -> float | None:
