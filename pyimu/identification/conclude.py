@@ -107,6 +107,7 @@ def conclude(
         added=tuple(added),
         changed=tuple(changed),
         unexplained=_unexplained(found, looks, noises),
+        dead=_dead(found, quality),
         drift=drifts,
         refused=_refused(found, noises),
         fates=tuple(f for k, inv in fitting.items() for f in _fates(k, inv, added, noises[k])),
@@ -337,6 +338,15 @@ def _unexamined(found: Found, logs: list[Recording], quality: Sequence[Finding])
         reasons["accel"] = lambda: f"the accelerometer was not examined: {told}"
         there.add("accel")
     return {k: reason() for k, reason in reasons.items() if k in there - set(found)}
+
+
+def _dead(found: Found, quality: Sequence[Finding]) -> tuple[str, ...]:
+    """The axes of sensors that were looked at which show one value all the time; of zeros nobody
+    measured them.
+    """
+    one = {f.column for f in quality if f.kind == "constant_channel" and f.detail["value"] != 0.0}
+    names = {f"{kind}_{axis}": f"the {SENSORS[kind]}'s {axis}" for kind in found for axis in "xyz"}
+    return tuple(words for name, words in names.items() if name in one)
 
 
 def _no_force(logs: list[Recording]) -> str:

@@ -255,3 +255,11 @@ def test_slow_errors_of_several_logs_add_up_by_their_windows(sizes):
     ]
     expected = np.sqrt(5.0 * (np.square(sizes[:3]) + np.square(sizes[3:])) / 2.0)
     np.testing.assert_allclose((made[0] + made[1]).expected_slow, expected)
+
+
+def test_an_axis_that_shows_one_value_all_the_time_is_not_called_clean():
+    quiet = {"accel": errors(np.ones(3), 1.0)}
+    clean = Evidence(("accel",), {}, "", True, 100 * SHORT, errors=quiet)
+    assert verdict(clean).word == "clean"
+    stands = verdict(replace(clean, dead=("the accelerometer's z",)))
+    assert stands.word == "undecidable" and "the accelerometer's z" in stands.reason

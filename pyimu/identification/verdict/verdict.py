@@ -70,7 +70,8 @@ class Evidence:
     the magnetometer where there is something to say, ``lost`` of which logs the attitude is lost;
     ``ranges`` which samples lie beyond a declared range, ``clocks`` what was taken out of the
     references, ``formulas`` by name how a formula is said,
-    ``unshown`` which coefficients the positions at rest do not show.
+    ``unshown`` which coefficients the positions at rest do not show, ``dead`` which axes show one
+    value all the time.
     """
 
     examined: tuple[str, ...]
@@ -94,6 +95,7 @@ class Evidence:
     clocks: tuple[str, ...] = ()
     formulas: Mapping[str, str] = field(default_factory=dict)
     unshown: tuple[str, ...] = ()
+    dead: tuple[str, ...] = ()
 
 
 def verdict(e: Evidence) -> Verdict:
@@ -186,6 +188,9 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
         seen = joined(sorted(e.examined))
         rest = f"nothing is missing of the {seen}{but}, and more was not examined"
         return Verdict("undecidable", rest)
+    if e.dead:
+        one = f"{joined(e.dead)} shows one value all the time, and nothing of its errors"
+        return Verdict("undecidable", f"nothing is missing{but} elsewhere; {one}")
     if e.beside is not None:
         return e.beside
     corrected = "; declared values that the data contradict are listed as changed"
