@@ -14,6 +14,7 @@ from pyimu.identification.fit.fit import Fit, bare, squares, whitened
 from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.left_out import left_out
+from pyimu.identification.fit.maximum_likelihood import wander_is_declared
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.noise_floor import own_noise, reference_variance
 from pyimu.identification.fit.normal import BATCHES, Noise
@@ -28,6 +29,10 @@ SPEAKS = 0.5
 
 CHANCE = 3.0
 """Standard errors by which held-out squares must be more than a true effect would leave."""
+
+DECLARED = 4.0
+"""The same where the part declares its noise, so that nothing that was taken for noise makes the
+errors small: of the hundreds of looks that a campaign takes none comes there by chance."""
 
 BORNE_OUT = 0.5
 """Share of its own difference that a true effect gains on held-out rows, all of it on the average,
@@ -62,7 +67,8 @@ class Evidence:
     the noise of sensor and reference leaves of ``whole``, None where only the residual itself tells
     of it.
     ``strays`` are mean and variance of what ``held`` falls less because the new model's
-    coefficients are known only so well.
+    coefficients are known only so well; beyond so many standard errors as ``chance_ends`` a rise is
+    none by chance.
     """
 
     gained: np.ndarray
@@ -74,6 +80,7 @@ class Evidence:
     whole: np.ndarray
     noise: np.ndarray | None
     strays: tuple[float, float] = (0.0, 0.0)
+    chance_ends: float = CHANCE
 
     @property
     def speaks(self) -> bool:
@@ -110,7 +117,7 @@ class Evidence:
         """Whether the held-out error rises by more than chance, and the rows do not bear out what
         raises it.
         """
-        rises = self.rise > 0.0 and self.surprise > CHANCE
+        rises = self.rise > 0.0 and self.surprise > self.chance_ends
         return (self.speaks and rises and not self.bears_out) or self.plainly_raises
 
     @property
@@ -190,7 +197,8 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
         return Evidence(**sums, held=held_out, plain=held_out, whole=held_out, noise=None)
     fitted = np.array([_squares(f) for f in (old, new)])
     both = {"held": held_out, "plain": plain, "whole": held_out + fitted}
-    found = Evidence(**sums, **both, noise=_noise(new, held))
+    ends = DECLARED if wander_is_declared(new) else CHANCE
+    found = Evidence(**sums, **both, noise=_noise(new, held), chance_ends=ends)
     return replace(found, strays=strayed(old, new, held)) if found.raises else found
 
 
