@@ -130,6 +130,15 @@ def test_surprise_is_standard_normal_where_the_new_model_is_true():
     assert abs(np.var(surprises) - 1.0) < 4 * np.sqrt(2 / 400)
 
 
+@pytest.mark.parametrize(("surprise", "ends", "raises"), [(3.5, 3.0, True), (3.5, 4.0, False)])
+def test_a_rise_is_by_chance_up_to_where_chance_ends(surprise, ends, raises):
+    """Of an error of 1 that rises to ``surprise`` standard errors of the change of it."""
+    one = np.array([1.0, 0.0, 0.0])
+    held = np.array([100.0 * one, (100.0 + 2.0 * surprise - 1.0) * one])
+    seen = Evidence(-one, one, one, one, held, held, held, None, chance_ends=ends)
+    assert seen.surprise == pytest.approx(surprise) and seen.raises == raises
+
+
 def test_what_a_drift_may_be_is_taken_from_held_out_rows():
     """The square that is left is that of noise to whose covariance the drift's is added (Woodbury),
     of white noise and a walk alike.
