@@ -1,5 +1,7 @@
 """Random errors that look like something else, on cases of the benchmark."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from effect_logs.cases import make
@@ -10,7 +12,7 @@ from pyimu.identification.noise.jumps import POPCORN
 from pyimu.identification.noise.laws import kinds, names_of
 from pyimu.identification.report.page import page
 from pyimu.identification.search.by_chance import Chance
-from pyimu.identification.search.forward import AS_NOISE
+from pyimu.identification.search.forward import AS_NOISE, without
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 
@@ -133,3 +135,9 @@ def test_what_rounding_shifts_at_rest_is_no_step_of_the_bias(step, added):
     accel = np.round(accel / TO) * TO
     found = pyimu.close(Recording.from_arrays("log", time=time, accel=accel, ref_force=force))
     assert sorted(a.effect for a in found.added) == [*added, "quantization"], found.report()
+
+
+def test_an_effect_that_went_with_another_one_is_taken_back_once():
+    """Of two that are to go the first may take the second with it, which leant on it."""
+    inv = SimpleNamespace(steps=())
+    assert without(inv, "bias_step", AS_NOISE) is inv

@@ -112,8 +112,7 @@ def less_than_memory(inv: Investigation) -> Investigation:
     if ahead <= (SET_WIDTH if remembered(inv.after) is None else -SET_WIDTH):
         return inv
     for s in steps:
-        if s.effect in {left.effect for left in inv.steps}:
-            inv = without(inv, s.effect, f"{memory.said} explains {_said(ahead)}")
+        inv = without(inv, s.effect, f"{memory.said} explains {_said(ahead)}")
     return inv
 
 

@@ -428,8 +428,12 @@ def _in_order(options: list[Screened], fit: Fit) -> list[Screened]:
 
 
 def without(inv: Investigation, effect: str, reason: str) -> Investigation:
-    """The investigation with an added effect taken back, for a ``reason`` found elsewhere."""
-    step = next(s for s in inv.steps if s.effect == effect)
+    """The investigation with an added effect taken back, for a ``reason`` found elsewhere; as it is
+    where that went with another one, to which it had leant.
+    """
+    step = next((s for s in inv.steps if s.effect == effect), None)
+    if step is None:
+        return inv
     sensor = inv.after.sensor.without(effect)
     after = fit(replace(inv.after, sensor=sensor, free=inv.after.free - step.keys).with_noise())
     # What was found beside it may have leant on it.
