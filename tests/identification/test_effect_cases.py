@@ -150,3 +150,14 @@ def test_a_formula_takes_the_place_of_effects_that_explain_nearly_as_much(case, 
     (added,), (one,) = found.added, found.formulas
     assert added.effect == "found_effect", found.report()
     assert set().union(*(t.signals for t in one.terms)) == signals
+
+
+def test_an_axis_of_one_speed_has_no_effect_of_its_own_where_another_axis_tells_which_it_is():
+    """There a cubic looks like a scale factor, which had come in before the cubic; the other axis
+    turns at many. Within four standard errors each.
+    """
+    made = make("size1/gyro.scale_factor_cubic", 244, (5.0, 9.0))
+    found = closed(made)
+    assert [a.effect for a in found.added] == ["scale_factor_cubic"], found.report()
+    value, std, _ = found.added[0].parameters["s3"]
+    assert np.all(np.abs(value - made.truths[0].value)[:2] < 4.0 * std[:2])

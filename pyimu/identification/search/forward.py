@@ -187,9 +187,10 @@ def investigate(
     if not believed and _is_of_reference(search):
         return investigate(sensor, free, trials, held, say, prior, "", True, lines)
     after, steps = _backward(search.after, search.steps)
-    after, steps = _with_intervals(after, steps), _scattering_at_last(after, steps, search.last)
+    after, steps, last = _by_fewer(after, steps, search)
+    after, steps = _with_intervals(after, steps), _scattering_at_last(after, steps, last)
     refused = tuple(search.refused.values())
-    looks = search.first, search.last
+    looks = search.first, last
     left = unbent(search.before, after), after, tuple(steps), refused, *looks, tuple(search.held)
     return Investigation(*left, believed=believed)
 
@@ -425,6 +426,32 @@ def _in_order(options: list[Screened], fit: Fit) -> list[Screened]:
     if not fit.is_reduced:
         return options
     return [c for c in options if c.effect in STRUCTURE] or options
+
+
+def _by_fewer(after: Fit, steps: list[Step], search: _Search) -> tuple[Fit, list[Step], Screening]:
+    """The model, its steps and the last look without an effect that came in where another would
+    have done as well that is in the model, too, if that one does on the axes of both.
+    """
+    for one in steps:
+        others = [s for s in steps if s.effect in one.alternatives and _may_grow(s.effect, after)]
+        for other in () if one.declared or one.as_sampled else others:
+            more = _on_axes_of(one, other, after) - other.keys
+            free = (after.free - one.keys) | more
+            sensor = after.sensor.without(one.effect)
+            fewer = fit(replace(after, sensor=sensor, free=free).with_noise())
+            lost = advantage(after, fewer) / one.dispersion - PENALTY * (len(one.keys) - len(more))
+            if lost <= one.gate:
+                grown = replace(other, keys=other.keys | more, gain=other.gain + one.gain)
+                kept = [grown if s is other else s for s in steps if s is not one]
+                return fewer, kept, screen(fewer, search.sensor.values)
+    return after, steps, search.last
+
+
+def _on_axes_of(one: Step, other: Step, after: Fit) -> frozenset[Key]:
+    """The coefficients of another step's effect on the axes on which one acts."""
+    axes = {k.index[0] for k in one.keys if isinstance(k, Coefficient) and k.index}
+    every = coefficients_of(after.sensor, other.effect)
+    return frozenset(k for k in every if k.index and k.index[0] in axes)
 
 
 def without(inv: Investigation, effect: str, reason: str) -> Investigation:
