@@ -27,6 +27,7 @@ LATE = {
     "pyimu.block.stepping",
     "pyimu.characterization.report.magnetometer",
     "pyimu.characterization.run",
+    "pyimu.model.tolerance",
     "pyimu.model.truth",
 }
 """Modules with imports of the package inside functions: casadi, scipy and numba take seconds, which

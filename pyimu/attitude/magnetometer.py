@@ -15,7 +15,7 @@ from pyimu.errors import Finding
 from pyimu.recording.quality.field_axes import field_findings
 from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.recording import Recording
-from pyimu.recording.reference.smoother import white_noise
+from pyimu.recording.reference.white_noise import white_noise
 from pyimu.units import parse
 
 EARTH = (22e-6, 67e-6)

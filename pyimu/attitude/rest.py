@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.signal import lfilter
+from scipy.linalg import solve_banded
 from scipy.special import fdtri
 
 from pyimu.attitude.filter.prediction import DRIVES
@@ -288,11 +288,19 @@ def sways(rate: np.ndarray, period: float, noise: float) -> bool:
     if len(rate) * period < SLOW:
         return False
     left = rate - rate.mean(axis=0)
-    fast, slow = (
-        lfilter([period / (t + period)], [1, -t / (t + period)], left, axis=0) for t in (FAST, SLOW)
-    )
-    density = np.mean((fast - slow) ** 2) / SHARE
+    density = np.mean((lagged(left, period, FAST) - lagged(left, period, SLOW)) ** 2) / SHARE
     return bool(density > swaying_density(len(rate) * period, noise))
+
+
+def lagged(values: np.ndarray, period: float, time: float) -> np.ndarray:
+    """Samples (n, 3), one a ``period`` s, behind a lag of the first order with a ``time`` constant
+    in s, from zero on: (time + period) y[k] - time y[k - 1] = period x[k].
+
+    As equations in all y at once, since ``scipy.signal`` takes a quarter of a second to load.
+    """
+    bands = np.empty((2, len(values)))
+    bands[0], bands[1] = time + period, -time
+    return solve_banded((1, 0), bands, period * values, check_finite=False)
 
 
 def root_density(values: np.ndarray, period: float, still: bool) -> np.ndarray:

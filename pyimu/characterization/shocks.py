@@ -11,10 +11,10 @@ from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import norm
 
 from pyimu.characterization.samples import PIECE, Samples
 from pyimu.errors import Finding
+from pyimu.laws import norm
 from pyimu.model.part import AXES
 from pyimu.recording.rest import ONE_SHOCK, RARE, SECOND
 

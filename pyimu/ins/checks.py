@@ -18,7 +18,7 @@ from pyimu.recording.columns import XYZ
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import CRAWL
-from pyimu.recording.reference.smoother import white_noise
+from pyimu.recording.reference.white_noise import white_noise
 from pyimu.units import STANDARD_GRAVITY
 
 ANY_UNIT = 2.0

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from scipy.spatial.transform import Rotation
-from scipy.stats import chi2
 
 from pyimu.ins.short_rests import between_swings
+from pyimu.laws import chi2
 from pyimu.recording.clock import runs
 from pyimu.units import STANDARD_GRAVITY
 

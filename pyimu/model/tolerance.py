@@ -14,7 +14,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from pyimu.block.normals import normals
 from pyimu.brief import Brief
 from pyimu.errors import UserError
 from pyimu.model.arguments import Parameter
@@ -183,6 +182,8 @@ def _uniform(seed: int, stream: int) -> float:
 
 
 def _normal(seed: int, stream: int) -> float:
+    from pyimu.block.normals import normals  # loads numba, and few specimens are drawn
+
     return float(normals(seed, [stream], 0, 1)[0, 0])
 
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from attitude_cases import GRAVITY, H, part
 from drives import bodies
-from scipy.signal import butter, sosfilt
+from scipy.signal import butter, lfilter, sosfilt
 
 from pyimu.attitude import run
 from pyimu.attitude.filter.stillness import TURN_STD
-from pyimu.attitude.rest import find_rest
+from pyimu.attitude.rest import find_rest, lagged
 from pyimu.recording.recording import Recording
 
 N, K, N_ACCEL = 1e-4, 1e-5, 1e-3
@@ -54,6 +54,17 @@ def test_the_noise_of_a_gyro_behind_a_low_pass_is_no_sway(cutoff, order):
         water = still(seed, roll=0.002)
         water = replace(water, gyro=sosfilt(low, water.gyro, axis=0)).slice(300, 3000)
         assert find_rest(water).sways
+
+
+@pytest.mark.parametrize("time", [0.05, 1.0, 40.0])
+def test_a_lag_of_the_first_order_is_the_recursive_filter_of_its_two_taps(time):
+    """To the rounding of either: of a few half units of the last place in each step, of which the
+    lag forgets the earlier ones with its time constant.
+    """
+    values = np.random.default_rng(3).standard_normal((3000, 3))
+    want = lfilter([H / (time + H)], [1.0, -time / (time + H)], values, axis=0)
+    rounding = 6 * np.finfo(float).eps * (time + H) / H * np.abs(want).max()
+    np.testing.assert_allclose(lagged(values, H, time), want, rtol=0, atol=rounding)
 
 
 @pytest.mark.parametrize("known", [False, True])

@@ -12,10 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-from scipy.stats import chi2, norm
 
 from pyimu.attitude.filter.settings import Settings
 from pyimu.ins.detector import FALSE_ALARM, STEADY_GATE
+from pyimu.laws import chi2, norm
 from pyimu.symbolic.linear import cholesky, forward, reciprocal
 
 SLOTS = 10

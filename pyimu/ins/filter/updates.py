@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import casadi as ca
-from scipy.stats import chi2
 
 from pyimu.attitude.filter.settings import Settings
 from pyimu.ins.filter.layout import (
@@ -26,6 +25,7 @@ from pyimu.ins.filter.layout import (
 )
 from pyimu.ins.filter.prediction import about_the_centre
 from pyimu.ins.filter.weight import earth_by_turn
+from pyimu.laws import chi2
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import cholesky, forward, reciprocal, symmetric
 from pyimu.symbolic.missing import is_finite

@@ -28,10 +28,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-from scipy.stats import chi2
 
 from pyimu.attitude.filter.settings import Settings
 from pyimu.ins.filter.layout import BASE, HEADING, TURN, Layout, State
+from pyimu.laws import chi2
 
 BY_CHANCE = 1e-3
 """Probability with which errors alone exceed what they may be."""

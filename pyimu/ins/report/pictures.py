@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
-from scipy.stats import chi2
 
 from pyimu.ins.outcome import Outcome
 from pyimu.ins.track import Track
+from pyimu.laws import chi2
 from pyimu.report.figures import (
     AFTER,
     BEFORE,

@@ -12,7 +12,6 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.fft import next_fast_len, rfft
 from scipy.linalg import solveh_banded
-from scipy.optimize import minimize
 
 from pyimu.recording.clock import runs
 
@@ -124,6 +123,8 @@ def _refined(
         return np.log(_left(time, steps, at, (middle + p[0] * row - number * own, own)) + 1e-300)
 
     simplex = np.array([[0.0, 0.0], [0.08, 0.0], [0.0, 0.08]])
+    from scipy.optimize import minimize  # a twentieth of a second, and few logs need it
+
     found = minimize(left, simplex[0], method="Nelder-Mead", options={"initial_simplex": simplex})
     own = spacing + found.x[1] * row / half
     return float(middle + found.x[0] * row - number * own), float(own)

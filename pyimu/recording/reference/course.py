@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import correlate
 
 from pyimu.errors import Finding
 from pyimu.recording.clock import runs
 from pyimu.recording.quality.inspect import quietest_force
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.attitude import within
-from pyimu.recording.reference.smoother import smoothed, white_noise
+from pyimu.recording.reference.smoother import smoothed
 from pyimu.recording.reference.track import Track, fresh
+from pyimu.recording.reference.white_noise import white_noise
 
 CRAWL = 10.0
 """Times its own standard error that a velocity must have for its direction to be a course: the
@@ -134,6 +134,8 @@ def _axis_that_turns(recording: Recording, rate: np.ndarray) -> np.ndarray:
     gyro = np.nan_to_num(recording.gyro - np.nanmedian(recording.gyro, axis=0))
     x = np.nan_to_num(rate - np.nanmedian(rate))
     most = min(round(FARTHEST * recording.sample_rate), len(x) - 1)
+    from scipy.signal import correlate  # a quarter of a second, and few logs need it
+
     lags = correlate(gyro, x[:, None], "full")[len(x) - 1 - most : len(x) + most]
     row, axis = np.unravel_index(np.argmax(np.abs(lags)), lags.shape)
     return np.sign(lags[row, axis]) * np.eye(3)[axis]

@@ -25,9 +25,9 @@ from pyimu.recording.reference.nodes import own_places
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.sampling import slope_at, through
 from pyimu.recording.reference.shown import shown_up_to
-from pyimu.recording.reference.smoother import white_noise
 from pyimu.recording.reference.track import LEAST_NODES, STEP_RATIO, Track, fresh
 from pyimu.recording.reference.unsmoothed import restored_up_to
+from pyimu.recording.reference.white_noise import white_noise
 
 DEGREE = 5
 """Of the spline: the acceleration of its positions is one of the third."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.signal import firwin, kaiserord, oaconvolve
 
 PASSES, STOPS = 0.3, 0.5
 """Of the rows' rate: up to the first a reference is as it was, from the second on, where what it
@@ -27,6 +26,8 @@ def for_rows(values: np.ndarray, period: float, row: float) -> np.ndarray:
     """
     if not is_quicker(period, row):
         return values
+    from scipy.signal import firwin, kaiserord, oaconvolve  # a quarter of a second, for few
+
     count, beta = kaiserord(LEFT, (STOPS - PASSES) * 2.0 * period / row)
     half = count // 2
     low = firwin(
