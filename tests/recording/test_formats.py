@@ -14,6 +14,7 @@ from scipy.io import savemat
 
 from pyimu.errors import UserError
 from pyimu.recording.counts import read_scales
+from pyimu.recording.formats.suffix import write_table
 from pyimu.recording.log import open_log, read_recording
 
 LIBRARY = {
@@ -139,6 +140,22 @@ def test_parquet_integers_of_any_width(kind, tmp_path):
     )
     frame.to_parquet(tmp_path / "log.parquet")
     assert read_recording(tmp_path / "log.parquet").time == pytest.approx([0.005, 0.015, 0.025])
+
+
+@pytest.mark.parametrize("rows", [0, 1, 8, 19])
+def test_tables_as_another_library_reads_them(rows, tmp_path):
+    """Of every kind of column that a result has: numbers one behind another or apart, NaN among
+    them as what is missing, truths, and marks.
+    """
+    rng = np.random.default_rng(rows)
+    pair = rng.standard_normal((rows, 2))
+    gaps = np.where(rng.random(rows) < 0.3, np.nan, pair[:, 0])
+    truths, marks = rng.random(rows) < 0.5, rng.integers(0, 2**16, rows).astype("uint16")
+    columns = {"apart": pair[:, 1], "gaps": gaps, "truths": truths, "marks": marks}
+    write_table(tmp_path / "table.parquet", columns)
+    pd.testing.assert_frame_equal(
+        pd.read_parquet(tmp_path / "table.parquet"), pd.DataFrame(columns)
+    )
 
 
 def test_unsigned_time_that_runs_backwards_is_seen(tmp_path, refused):
