@@ -673,12 +673,18 @@ def test_help_is_quick():
     assert "Example" in done.stdout and done.stderr == "\n"
 
 
+SIGNAL = ("scipy.signal", "scipy.stats")
+"""The first imports the second; together they take a quarter of a second."""
+
+
 @pytest.mark.parametrize(
     "module, without",
     [
         ("pyimu", {"numpy", "scipy", "casadi", "matplotlib", "numba", "pyarrow", "fmpy"}),
-        ("pyimu.attitude", {"matplotlib", "fmpy", "control"}),
-        ("pyimu.recording.log", {"casadi", "numba", "matplotlib", "fmpy", "control"}),
+        ("pyimu.attitude", {"matplotlib", "fmpy", "control", "numba", *SIGNAL, "scipy.optimize"}),
+        ("pyimu.recording.log", {"casadi", "numba", "matplotlib", "fmpy", "control", *SIGNAL}),
+        ("pyimu.characterization.run", {"fmpy", "control", *SIGNAL}),
+        ("pyimu.ins", {"fmpy", "control", *SIGNAL}),
         ("pyimu.identification.close", {"control"}),
     ],
 )
@@ -689,6 +695,35 @@ def test_what_an_import_does_not_load(module, without):
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
     )
     assert (done.stdout, done.stderr) == ("\n", "")
+
+
+@pytest.mark.parametrize("command", ["attitude", "characterize"])
+def test_what_a_log_at_rest_does_not_load(command, tmp_path):
+    """Nor is it loaded where it would be used: not for a rest, a page or a table of results."""
+    write_rest(tmp_path / "rest.csv")
+    names = {*SIGNAL, "pandas", "rich", "fmpy", "control"}
+    code = (
+        "import sys, pyimu.cli\ntry: pyimu.cli.main()\nexcept SystemExit: pass\n"
+        f"print(*set(sys.modules) & {names!r})"
+    )
+    arguments = (command, "rest.csv", "--out", "out", "--quiet")
+    done = subprocess.run(
+        [sys.executable, "-c", code, *arguments],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert (done.stdout, done.stderr) == ("\n", "") and (tmp_path / "out/report.html").is_file()
+
+
+def write_rest(path):
+    """A log of two minutes at rest, ten samples a second."""
+    rng, n = np.random.default_rng(0), 1200
+    rate, force = 1e-3 * rng.standard_normal((n, 3)), 1e-2 * rng.standard_normal((n, 3))
+    force += [0.0, 0.0, 9.81]
+    Recording.from_arrays(time=0.1 * np.arange(n), gyro=rate, accel=force).write(path)
 
 
 @pytest.mark.parametrize("library", [lambda name: object(), lambda name: ctypes.c_int("no path")])

@@ -198,6 +198,9 @@ def progress(text: str) -> Iterator[Callable[..., None]]:
 
     Gives the function that says what is being done, and which share of it.
     """
+    if not sys.stderr.isatty():
+        yield lambda now, share=None: None
+        return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -207,7 +210,6 @@ def progress(text: str) -> Iterator[Callable[..., None]]:
         TimeElapsedColumn(),
         console=Console(stderr=True),
         transient=True,
-        disable=not sys.stderr.isatty(),
     ) as bar:
         task = bar.add_task(text, total=None)
         # A task that is complete stops its clock.
