@@ -83,8 +83,10 @@ def new_figure(width: float, height: float, rows: int = 1) -> tuple[Figure, list
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width, height), layout="constrained")
-    axes = figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
-    return figure, list(axes)
+    axes = list(figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0])
+    for panel in axes[:-1]:
+        panel.xaxis.set_in_layout(False)  # it shows no numbers, and to look for them takes as long
+    return figure, axes
 
 
 def svg_of(figure: Figure, curves: bool = False) -> str:
