@@ -1,7 +1,8 @@
 """Write ``loop_rates.md`` and its picture: how often the loop names what a part lacks.
 
-``python docs/build/loop_rates_page.py RESULTS [--folder FOLDER] [--commit COMMIT]``, with the
-results that ``benchmarks/effects.py`` has written, with the code of a commit that the page names.
+``python docs/build/loop_rates_page.py RESULTS ... [--folder FOLDER] [--commit COMMIT ...]``, with
+the results that ``benchmarks/effects.py`` has written, a file for the code of each commit that the
+page names.
 Where a row has fewer cases than ``ENOUGH`` the page says that its figures are a first look.
 """
 
@@ -10,6 +11,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib
@@ -24,6 +26,8 @@ from effect_results.judge import NAMED_APART, OUTCOMES, Record  # noqa: E402
 from effect_results.table import confusion, failures, figures, rows  # noqa: E402
 from runs.pool import finished  # noqa: E402
 
+from pyimu.report.numbers import joined  # noqa: E402
+
 ENOUGH = 100
 """Cases of a row below which its figures are a first look: a rate of one half is known to a
 tenth."""
@@ -34,8 +38,8 @@ INCH = 0.16
 """Of the picture for each row and column."""
 
 
-def page(records: list[Record], commit: str = "") -> str:
-    """The page's text; ``commit`` is whose code made the results."""
+def page(records: list[Record], commits: Sequence[str] = ()) -> str:
+    """The page's text; ``commits`` are those whose code made the results."""
     counts = [r.of for r in rows(records)]
     lines = [
         "# How often the loop names what a part lacks",
@@ -53,8 +57,10 @@ def page(records: list[Record], commit: str = "") -> str:
         f"{len(records) - told} nobody declares anything, which is harder.",
         "",
     ]
-    if commit:
-        lines += [f"Made with the code of commit `{commit}`.", ""]
+    if commits:
+        names = [f"`{c}`" for c in commits]
+        parts = f"commit {names[0]}" if len(names) == 1 else f"commits {joined(names)}, each a part"
+        lines += [f"Made with the code of {parts}.", ""]
     if min(counts) < ENOUGH:
         lines += [f"**A first look: rows of {min(counts)} to {max(counts)} cases.**", ""]
     lines += _table(["row", "figure", "target"], figures(records))
@@ -110,13 +116,14 @@ def _by_kind(name: str) -> tuple[bool, str]:
     return name.startswith("("), name
 
 
-def write(results: Path, folder: Path = DOCS, commit: str = "") -> list[Path]:
-    """Write page and picture from a file of results; gives the paths of what changed."""
-    records = list(finished(results).values())
-    if not records:
-        raise SystemExit(f"{results}: no results; benchmarks/effects.py writes them")
+def write(results: Sequence[Path], folder: Path = DOCS, commits: Sequence[str] = ()) -> list[Path]:
+    """Write page and picture from files of results; gives the paths of what changed."""
+    each = [finished(one) for one in results]
+    if empty := [one for one, found in zip(results, each, strict=True) if not found]:
+        raise SystemExit(f"{empty[0]}: no results; benchmarks/effects.py writes them")
+    records = list({key: r for found in each for key, r in found.items()}.values())
     path = folder / f"{NAME}.md"
-    if not write_changed(path, page(records, commit)):
+    if not write_changed(path, page(records, commits)):
         return []
     image = folder / f"{NAME}.png"
     picture(confusion(records)).savefig(image, dpi=130, metadata={"Software": None})
@@ -125,9 +132,9 @@ def write(results: Path, folder: Path = DOCS, commit: str = "") -> list[Path]:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("results", type=Path)
+    parser.add_argument("results", type=Path, nargs="+")
     parser.add_argument("--folder", type=Path, default=DOCS)
-    parser.add_argument("--commit", default="", help="whose code made the results")
+    parser.add_argument("--commit", default=(), nargs="+", help="whose code made each of them")
     given = parser.parse_args()
     for written in write(given.results, given.folder, given.commit):
         print(written)

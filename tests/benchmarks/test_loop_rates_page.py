@@ -22,7 +22,7 @@ def written(tmp_path, count):
 
 
 def test_the_page_says_how_few_cases_it_has(tmp_path):
-    page, image = loop_rates_page.write(written(tmp_path, 5), tmp_path)
+    page, image = loop_rates_page.write([written(tmp_path, 5)], tmp_path)
     text = page.read_text()
     assert "A first look: rows of 0 to 4 cases" in text
     assert (
@@ -32,9 +32,9 @@ def test_the_page_says_how_few_cases_it_has(tmp_path):
     assert r"x and \|x\| are the same up to their sign |" in text  # a bare one would end the cell
     with Image.open(image) as opened:
         assert min(opened.size) > 100
-    assert loop_rates_page.write(tmp_path / "results.jsonl", tmp_path) == []
+    assert loop_rates_page.write([tmp_path / "results.jsonl"], tmp_path) == []
     assert "commit" not in text
-    loop_rates_page.write(tmp_path / "results.jsonl", tmp_path, "a1b2c3d")
+    loop_rates_page.write([tmp_path / "results.jsonl"], tmp_path, ["a1b2c3d"])
     assert "Made with the code of commit `a1b2c3d`." in page.read_text()
 
 
