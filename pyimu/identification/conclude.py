@@ -15,6 +15,7 @@ from pyimu.identification.errors.heading_error import heading_rms
 from pyimu.identification.errors.held_out import at_rest, held_trials, scores
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
+from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.formula.memory import Remembered
 from pyimu.identification.formula.search import Look
@@ -108,6 +109,7 @@ def conclude(
         changed=tuple(changed),
         unexplained=_unexplained(found, looks, noises),
         dead=_dead(found, quality),
+        rounded=bool(_rounded(found)),
         drift=drifts,
         refused=_refused(found, noises),
         fates=tuple(f for k, inv in fitting.items() for f in _fates(k, inv, added, noises[k])),
@@ -194,12 +196,24 @@ def _unless_remembered(noise: Noise, memory: Remembered | None) -> Noise:
 def _unexplained(
     found: Found, looks: Mapping[str, Look], noises: Mapping[str, Noise]
 ) -> tuple[Unexplained, ...]:
-    """What no effect accounts for, but of a sensor of whose reference the rounding has been taken
-    for an effect: it looks like all of these.
-    """
-    rounded = {k for k, inv in found.items() if any(r.reason == OF_DIGITS for r in inv.refused)}
+    """What no effect accounts for, but of a sensor whose reference's rounding looks like it."""
+    rounded = _rounded(found)
     of_inputs = tuple(k.unexplained for n, k in looks.items() if k.unexplained and n not in rounded)
     return of_inputs + tuple(s for k, n in noises.items() if k not in rounded for s in n.shapes)
+
+
+def _rounded(found: Found) -> set[str]:
+    """The sensors of whose references the rounding has been taken for an effect, or is of a step
+    beyond the sensor's own noise, so that it stands and jumps.
+    """
+
+    def stands(inv: Investigation) -> bool:
+        return any((np.array(t.digits) > rest_noise(t)).any() for t in inv.after.trials)
+
+    def is_refused(inv: Investigation) -> bool:
+        return any(r.reason == OF_DIGITS for r in inv.refused)
+
+    return {k for k, inv in found.items() if is_refused(inv) or stands(inv)}
 
 
 def _refused(found: Found, noises: Mapping[str, Noise]) -> tuple[tuple[str, Refused], ...]:

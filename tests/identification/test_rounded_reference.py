@@ -53,3 +53,14 @@ def test_an_effect_larger_than_rounding_is_found_all_the_same():
     gyro = rounded.gyro + bent
     closed = pyimu.close(Recording.from_arrays(time=rounded.time, gyro=gyro, ref_rate=rate))
     assert [a.effect for a in closed.added] == ["scale_factor_cubic"]
+
+
+def test_digits_that_stand_and_jump_are_no_telegraph_noise():
+    """A rate of sines whose digit is ten times the noise."""
+    time = H * np.arange(6000)
+    rate, noise = np.zeros((6000, 3)), np.random.default_rng(5).standard_normal((6000, 3))
+    rate[:, 2] = np.sin(time)
+    shown = np.where(rate, np.rint(rate / 0.01) * 0.01, np.nan)
+    gyro = rate + 1e-3 * noise
+    closed = pyimu.close(Recording.from_arrays(time=time, gyro=gyro, ref_rate=shown))
+    assert not closed.added and not closed.unexplained, closed.report()

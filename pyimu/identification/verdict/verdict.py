@@ -71,7 +71,8 @@ class Evidence:
     ``ranges`` which samples lie beyond a declared range, ``clocks`` what was taken out of the
     references, ``formulas`` by name how a formula is said,
     ``unshown`` which coefficients the positions at rest do not show, ``dead`` which axes show one
-    value all the time.
+    value all the time; ``rounded`` is whether the rounding of a reference looks like an error of
+    the sensor.
     """
 
     examined: tuple[str, ...]
@@ -96,6 +97,7 @@ class Evidence:
     formulas: Mapping[str, str] = field(default_factory=dict)
     unshown: tuple[str, ...] = ()
     dead: tuple[str, ...] = ()
+    rounded: bool = False
 
 
 def verdict(e: Evidence) -> Verdict:
@@ -182,8 +184,7 @@ def _nothing_found(e: Evidence, left: str) -> Verdict:
         )
     if wanders := wandering(e):
         return Verdict("drift", wanders)
-    rounded = any(r.reason == OF_DIGITS for _, r in e.refused)
-    but = " but what the rounding of the reference's numbers may hide" if rounded else ""
+    but = " but what the rounding of the reference's numbers may hide" if e.rounded else ""
     if e.unexamined:
         seen = joined(sorted(e.examined))
         rest = f"nothing is missing of the {seen}{but}, and more was not examined"
