@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -99,6 +99,7 @@ def conclude(
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others, _gained(noises))
     heading, formulas = heading_rms(found.get("gyro")), _kept(looks.values(), found)
+    rounded = _rounded(found)
     evidence = Evidence(
         examined=tuple(found),
         unexamined=_unexamined(found, logs, quality),
@@ -107,9 +108,9 @@ def conclude(
         rows=rows_fitted(found),
         added=tuple(added),
         changed=tuple(changed),
-        unexplained=_unexplained(found, looks, noises),
+        unexplained=_unexplained(rounded, looks, noises),
         dead=_dead(found, quality),
-        rounded=bool(_rounded(found)),
+        rounded=bool(rounded),
         drift=drifts,
         refused=_refused(found, noises),
         fates=tuple(f for k, inv in fitting.items() for f in _fates(k, inv, added, noises[k])),
@@ -194,10 +195,9 @@ def _unless_remembered(noise: Noise, memory: Remembered | None) -> Noise:
 
 
 def _unexplained(
-    found: Found, looks: Mapping[str, Look], noises: Mapping[str, Noise]
+    rounded: Collection[str], looks: Mapping[str, Look], noises: Mapping[str, Noise]
 ) -> tuple[Unexplained, ...]:
-    """What no effect accounts for, but of a sensor whose reference's rounding looks like it."""
-    rounded = _rounded(found)
+    """What no effect accounts for, but of sensors whose reference's rounding looks like it."""
     of_inputs = tuple(k.unexplained for n, k in looks.items() if k.unexplained and n not in rounded)
     return of_inputs + tuple(s for k, n in noises.items() if k not in rounded for s in n.shapes)
 
@@ -208,7 +208,8 @@ def _rounded(found: Found) -> set[str]:
     """
 
     def stands(inv: Investigation) -> bool:
-        return any((np.array(t.digits) > rest_noise(t)).any() for t in inv.after.trials)
+        trials = (t for t in inv.after.trials if any(t.digits))
+        return any((np.array(t.digits) > rest_noise(t)).any() for t in trials)
 
     def is_refused(inv: Investigation) -> bool:
         return any(r.reason == OF_DIGITS for r in inv.refused)

@@ -26,8 +26,7 @@ from pyimu.recording.coarse import came_in_bursts
 from pyimu.recording.complete import completed
 from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.quality.healing import healed, short_runs
-from pyimu.recording.quality.resolution import RELEVANT_STEP, last_digit
-from pyimu.recording.quality.scatter import scatter
+from pyimu.recording.quality.resolution import last_digit, least_relevant
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.filled import FILLED, filled_in, resolution
@@ -66,9 +65,6 @@ NO_DIGITS = (0.0, 0.0, 0.0)
 
 DIGITS = "reference_digits"
 """The finding of a reference whose numbers are rounded."""
-
-QUIET = 0.1
-"""Quantile of the scatter of windows that is taken for a sensor's noise."""
 
 
 def leaves_a_lag(finding: Finding) -> bool:
@@ -436,8 +432,8 @@ def _digits(values: np.ndarray, y: np.ndarray) -> tuple[float, ...]:
     the noise of the samples (n, 3).
     """
     steps = [last_digit(np.ascontiguousarray(v)) for v in values.T]
-    noise = [scatter(np.abs(np.diff(v, 2)), QUIET) / np.sqrt(6.0) for v in y.T]
-    return tuple(s if s > RELEVANT_STEP * n else 0.0 for s, n in zip(steps, noise, strict=True))
+    least = map(least_relevant, y.T)
+    return tuple(s if s > at_least else 0.0 for s, at_least in zip(steps, least, strict=True))
 
 
 def _said_of_digits(digits: tuple[float, ...], reference: str) -> tuple[Finding, ...]:

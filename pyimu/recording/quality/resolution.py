@@ -19,6 +19,9 @@ these may be concentrated by chance: six standard errors, of one over the root o
 RELEVANT_STEP = 0.1
 """A step below this part of the noise is the rounding of the file, and does nothing."""
 
+QUIET = 0.1
+"""Quantile of the scatter of windows that is taken for the noise."""
+
 SHARES = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.0)
 """Quantiles of the gaps between levels that are tried as a step, the largest first: of a fine comb
 few levels are taken, and few of them are neighbours."""
@@ -60,9 +63,16 @@ def quantization_step(values: np.ndarray) -> float | None:
             else None
         )
     step = _first_step(ordered, levels)
-    if step is None or step < RELEVANT_STEP * scatter(np.abs(np.diff(known, 2)), 0.1) / np.sqrt(6):
+    if step is None or step < least_relevant(known):
         return None
     return _on_comb(step, known, levels)
+
+
+def least_relevant(values: np.ndarray) -> float:
+    """The step below which rounding does nothing to ``values`` (n,): a part of their noise, which
+    second differences show 6 times as strong in power, where it is quiet.
+    """
+    return RELEVANT_STEP * scatter(np.abs(np.diff(values, 2)), QUIET) / np.sqrt(6)
 
 
 def comb_step(values: np.ndarray) -> float | None:
