@@ -1,4 +1,4 @@
-"""Tails and quantiles of the two laws that intervals and gates are made of.
+"""Tails and quantiles of the laws that intervals, gates and tests are made of.
 
 ``scipy.stats`` has them under the same names, by the same functions of ``scipy.special``. Importing
 it makes an object of each of a hundred laws, which takes a third of a second, and its calls look at
@@ -71,6 +71,38 @@ class norm:
     def ppf(p: ArrayLike) -> np.ndarray:
         """What is not exceeded with the probability ``p``."""
         return special.ndtri(p)
+
+
+class beta:
+    """The beta law."""
+
+    @staticmethod
+    def sf(x: ArrayLike, a: ArrayLike, b: ArrayLike) -> np.ndarray:
+        """The probability above ``x``."""
+        return special.betaincc(a, b, x)
+
+
+class f:
+    """Fisher's law of the ratio of two variances."""
+
+    @staticmethod
+    def sf(x: ArrayLike, above: ArrayLike, below: ArrayLike) -> np.ndarray:
+        """The probability above ``x``, by the degrees of freedom above and below the stroke."""
+        return special.fdtrc(above, below, x)
+
+    @staticmethod
+    def ppf(p: ArrayLike, above: ArrayLike, below: ArrayLike) -> np.ndarray:
+        """What is not exceeded with the probability ``p``."""
+        return special.fdtri(above, below, p)
+
+
+class t:
+    """Student's law with ``df`` degrees of freedom."""
+
+    @staticmethod
+    def sf(x: ArrayLike, df: ArrayLike) -> np.ndarray:
+        """The probability above ``x``."""
+        return special.stdtr(df, np.negative(x))
 
 
 def _log(p: np.ndarray, rest: np.ndarray) -> np.ndarray:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from pyimu.laws import chi2, norm
+from pyimu.laws import beta, chi2, f, norm, t
 
 DF = np.array([0.3, 1.0, 2.0, 7.5, 40.0, 3000.0])
 X = np.array([1e-3, 0.5, 1.0, 20.0, 900.0])
@@ -30,6 +30,22 @@ def test_normal():
         )
     for name in ("isf", "ppf"):
         np.testing.assert_allclose(getattr(norm, name)(P), getattr(stats.norm, name)(P), rtol=1e-13)
+
+
+def test_ratios():
+    below = np.array([1.0, 2.5, 30.0, 5000.0])
+    for above in (1, 9):
+        np.testing.assert_allclose(
+            f.sf(X[:, None], above, below), stats.f.sf(X[:, None], above, below), rtol=1e-12
+        )
+        np.testing.assert_allclose(
+            f.ppf(P[:, None], above, below), stats.f.ppf(P[:, None], above, below), rtol=1e-9
+        )
+        shares = np.array([1e-6, 0.1, 0.9])[:, None]
+        np.testing.assert_allclose(
+            beta.sf(shares, above, below), stats.beta.sf(shares, above, below), rtol=1e-9
+        )
+    np.testing.assert_allclose(t.sf(X[:, None], below), stats.t.sf(X[:, None], below), rtol=1e-12)
 
 
 def test_what_is_outside_of_a_law_is_not_a_number():

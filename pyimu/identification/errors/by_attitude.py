@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import ttest_1samp
 
 from pyimu.attitude.error import AttitudeError
 from pyimu.identification.errors.heading_error import FAR, with_better_heading
@@ -24,6 +23,7 @@ from pyimu.identification.search.forward import Investigation, less_of_baseline,
 from pyimu.identification.search.screen import fitted_dispersion
 from pyimu.identification.verdict.fates import TAKEN_BACK
 from pyimu.identification.verdict.verdict import WORSE
+from pyimu.laws import t
 from pyimu.model.catalogue import WALK
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
@@ -215,7 +215,8 @@ def _chance(
     )
     if len(grown) < LEAST_WINDOWS:
         return float("nan")
-    return float(ttest_1samp(grown, 0.0, alternative="greater").pvalue)
+    error = np.std(grown, ddof=1) / np.sqrt(len(grown))
+    return float(t.sf(np.mean(grown) / error, len(grown) - 1))
 
 
 def _lost(name: str, before: AttitudeError, after: AttitudeError) -> str:

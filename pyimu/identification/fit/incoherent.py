@@ -17,13 +17,13 @@ import numpy as np
 from scipy.fft import next_fast_len, rfft
 from scipy.signal import freqz
 from scipy.signal.windows import hann
-from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, in_band
 from pyimu.identification.fit.sample_noise import without_information
 from pyimu.identification.fit.short_memory import short_memory
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.laws import chi2
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
 

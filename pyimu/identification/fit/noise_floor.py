@@ -7,12 +7,12 @@ from collections.abc import Iterable
 import numpy as np
 from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
-from scipy.stats import chi2
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
+from pyimu.laws import chi2
 
 WINDOW = 64
 """Rows of the windows in which the quiet is looked for."""
@@ -82,7 +82,7 @@ def beyond_own(fit: Fit, errors: float = 0.0, log: str = "") -> np.ndarray:
             # No stretch is as long as a window: the level that half of the rows stay below.
             squares = np.concatenate([r for r, _ in seen]) ** 2
             rows = len(squares)
-            level = float(np.median(squares) / chi2.median(1)) if rows else 0.0
+            level = float(np.median(squares) / chi2.ppf(0.5, 1)) if rows else 0.0
         most = level * (1.0 + errors * np.sqrt(2.0 / max(rows, 1.0)))
         noise[i] = max(0.0, most - own[i].r * share)
     return noise

@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.linalg import block_diag, cho_factor, cho_solve, null_space
 from scipy.special import logsumexp
-from scipy.stats import beta, chi2
 
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import WANDERS_LESS, Fit, Last, begin, gauss_newton
@@ -22,6 +21,7 @@ from pyimu.identification.fit.mixture import standard_error
 from pyimu.identification.fit.normal import normal_equations
 from pyimu.identification.fit.structure import prior_of, with_structure
 from pyimu.identification.fit.trial import Trial
+from pyimu.laws import beta, chi2
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import CLASSES, magnitudes
 from pyimu.symbolic.earth import EARTH_RATE

@@ -10,12 +10,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.incoherent import NOTHING, OVERLAP, Spectrum
 from pyimu.identification.fit.sample_noise import without_information
 from pyimu.identification.fit.trial import Trial
+from pyimu.laws import chi2
 from pyimu.model.kinds import OWN
 
 CHANCE = 1e-4

@@ -12,7 +12,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.stats import f as fisher
 
 from pyimu.attitude.calibration import MagnetometerCalibration, of_sensor
 from pyimu.attitude.magnetometer import magnetometer_of
@@ -37,6 +36,7 @@ from pyimu.identification.magnetometer.fit import (
 from pyimu.identification.magnetometer.rows import FieldRows, field_rows
 from pyimu.identification.model.model_of import Found
 from pyimu.identification.verdict.verdict import FAR
+from pyimu.laws import f as fisher
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
 from pyimu.silent import silent

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numba import njit
 from scipy.optimize import minimize, minimize_scalar
-from scipy.stats import chi2, f
 
 from pyimu.identification.fit.clock import Slip
 from pyimu.identification.reference.steps import (
@@ -20,6 +19,7 @@ from pyimu.identification.reference.steps import (
     ramp,
     stepped,
 )
+from pyimu.laws import chi2, f
 
 WANDERS = 6.0
 """Gain in log-likelihood [nat] of a level that wanders over one that does not, from which on it is

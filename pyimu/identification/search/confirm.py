@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import chi2
 
 from pyimu.identification.fit.columns import Linear, band_time, in_band, linearise, residual
 from pyimu.identification.fit.errors_in_variables import STEP, has_noise, moved, residual_changes
@@ -23,6 +22,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import WALKS
 from pyimu.identification.search.leftover import axis_likelihood
 from pyimu.identification.search.strayed import strayed
+from pyimu.laws import chi2
 
 SPEAKS = 0.5
 """Log-likelihood [nat] by which two models must differ on held-out rows for these to decide."""

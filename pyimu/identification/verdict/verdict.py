@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.stats import chi2
 
 from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.found.entries import Added, Changed, Errors
@@ -15,6 +14,7 @@ from pyimu.identification.search.judge import OF_REFERENCE
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.rounded import OF_DIGITS
 from pyimu.identification.verdict.fates import NOT_LOOKED_FOR, Fate
+from pyimu.laws import chi2
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.report.numbers import joined, number
 
