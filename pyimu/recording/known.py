@@ -17,7 +17,7 @@ from pyimu.recording.column_map import BODY, ForeignMap
 from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
 from pyimu.recording.formats.oxts import CLOCK, TIME, is_oxts
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.guess.names import DERIVED, TRUTHS, named, others, surest, triads
+from pyimu.recording.guess.names import TRUTHS, named, others, surest, thermometer, triads
 from pyimu.recording.messages import imu_message, pose_message
 from pyimu.recording.optical import optical_body
 from pyimu.recording.programs import PROGRAMS
@@ -294,9 +294,9 @@ def stated(reader: Reader) -> ForeignMap | None:
             return None
         if triad.unit is not None and not rivals:
             columns |= triad_map([name.cell for name in triad.names], group, triad.unit)
-    warm = [n for n in names if n.is_temperature and n.unit in WARM and not set(n.words) & DERIVED]
-    if len(warm) == 1 and "temperature" not in own:
-        columns[warm[0].cell] = f"temperature [{warm[0].unit}]"
+    warm = thermometer(names)
+    if warm is not None and warm.unit in WARM and "temperature" not in own:
+        columns[warm.cell] = f"temperature [{warm.unit}]"
     if not any(target.startswith(("gyro", "accel")) for target in columns.values()):
         return None
     return ForeignMap(columns=columns)

@@ -11,7 +11,7 @@ from test_raw_logs import turned
 from pyimu import inspect, read_recording
 from pyimu.errors import UserError
 from pyimu.recording.formats.suffix import open_reader
-from pyimu.recording.guess.names import named
+from pyimu.recording.guess.names import named, thermometer
 from pyimu.recording.guess.proposal import proposed
 
 G = 9.80665
@@ -73,6 +73,9 @@ def test_a_vector_that_nothing_tells_is_told_of(tmp_path):
         ("Accel X (m/(s^2))", "m/(s^2)"),
         ("mag_x_uT", "uT"),
         ("temp_degC", "degC"),
+        ("imu_temperature_c", "degC"),
+        ("tempC", "degC"),
+        ("board_temp_k", "K"),
         ("time_s", "s"),
         ("w", None),
         ("g_x", None),
@@ -80,6 +83,22 @@ def test_a_vector_that_nothing_tells_is_told_of(tmp_path):
 )
 def test_unit_that_ends_a_name(cell, unit):
     assert named(cell).unit == unit
+
+
+@pytest.mark.parametrize(
+    "cells, own",
+    [
+        (["temp_c", "pressure_pa"], "temp_c"),
+        (["sht_temperature_c", "qmp_temperature_c", "imu_temperature_c"], "imu_temperature_c"),
+        (["gyro_temp", "baro_temp"], "gyro_temp"),
+        (["cpu_temp", "baro_temp"], None),
+        (["gyro_temp", "accel_temp"], None),
+    ],
+)
+def test_the_thermometer_of_the_sensors(cells, own):
+    """Of several the one that is named as theirs: what warms is said by none of the others."""
+    found = thermometer(named(cell) for cell in cells)
+    assert (found and found.cell) == own
 
 
 def test_a_counter_is_in_no_unit():

@@ -45,6 +45,12 @@ CLOCKS = ("s", "ms", "us", "ns", "min", "h")
 
 TEMPERATURES = {"temp", "temperature", "celsius", "imutemp"}
 
+LETTERS = {"c": "degC", "k": "K"}
+"""Letters for the unit of a temperature, where they end its name: ``temp_c``."""
+
+INERTIAL = {"imu", "mpu", "mems", "inertial", "imutemp"}
+"""Words for the unit whose thermometer it is, beside those of its sensors."""
+
 TRUTHS = {"ref", "reference", "vicon", "opt", "optical", "omc", "mocap", "truth", "groundtruth"} | {
     "gt",
     "optitrack",
@@ -146,9 +152,20 @@ def named(cell: str) -> Name:
         words, unit = in_words(words, {*"xyz", *ROLLS, *TIMES, *TEMPERATURES})
     if unit is None and not said and words and words[-1] in TICKS:
         unit = TICKS[words[-1]]
+    if unit is None and not said and set(words[:-1]) & TEMPERATURES and words[-1] in LETTERS:
+        unit = LETTERS[words.pop()]
     axis, words = _axis(words)
     words = ["gforce"] if words in (["g", "f"], ["g", "force"]) else words
     return Name(cell, tuple(words), axis, unit, said or (unit or ""))
+
+
+def thermometer(names: Iterable[Name]) -> Name | None:
+    """The temperature of the sensors: the only one there, or the only one named as theirs."""
+    there = [n for n in names if n.is_temperature and not set(n.words) & DERIVED]
+    if len(there) > 1:
+        own = INERTIAL | STRONG["gyro"] | STRONG["accel"]
+        there = [n for n in there if set(n.words) & own]
+    return there[0] if len(there) == 1 else None
 
 
 EITHER = {"G": ("g", "gauss"), "mG": ("mg", "mgauss")}

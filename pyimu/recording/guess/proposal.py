@@ -14,7 +14,6 @@ from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.endings import fits
 from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.names import (
-    DERIVED,
     TRUTHS,
     Name,
     angles,
@@ -27,6 +26,7 @@ from pyimu.recording.guess.names import (
     quaternions,
     spots,
     surest,
+    thermometer,
     triads,
 )
 from pyimu.recording.guess.numbers import (
@@ -475,15 +475,14 @@ def _field_unit(values: np.ndarray) -> UnitGuess:
 
 
 def _temperature(found: Proposal, reader: Reader, numbers: Numbers) -> None:
-    names = [named(cell) for cell in reader.header]
-    warm = [n for n in names if n.is_temperature and not set(n.words) & DERIVED]
-    if len(warm) == 1:
-        unit = warm[0].unit if warm[0].unit in FREEZING else None
-        guess = UnitGuess(unit, f"the header says {warm[0].said}")
-        at = found.header.index(warm[0].cell)
+    warm = thermometer(named(cell) for cell in reader.header)
+    if warm is not None:
+        unit = warm.unit if warm.unit in FREEZING else None
+        guess = UnitGuess(unit, f"the header says {warm.said}")
+        at = found.header.index(warm.cell)
         if unit is None and at in numbers.positions:
             guess = warmth_unit(numbers.of([at]))
-        found.add([Guess(warm[0].cell, "temperature", guess.unit, guess.why)])
+        found.add([Guess(warm.cell, "temperature", guess.unit, guess.why)])
 
 
 def _own(found: Proposal, reader: Reader) -> None:
