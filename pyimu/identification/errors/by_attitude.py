@@ -203,7 +203,7 @@ def _chance(
     before: dict[str, AttitudeError], after: dict[str, AttitudeError], names: list[str]
 ) -> float:
     """How often chance would make an error grow by as much (Student's test of the mean squares of
-    its windows in pairs); NaN of a few windows.
+    its windows in pairs); NaN of a few windows, and where none changed.
 
     What undoes a delay or a lag knows no truth of a log's last rows: those count that both have.
     """
@@ -213,7 +213,7 @@ def _chance(
             for n in names
         ]
     )
-    if len(grown) < LEAST_WINDOWS:
+    if len(grown) < LEAST_WINDOWS or not np.any(grown):
         return float("nan")
     error = np.std(grown, ddof=1) / np.sqrt(len(grown))
     return float(t.sf(np.mean(grown) / error, len(grown) - 1))
