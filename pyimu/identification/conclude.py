@@ -45,7 +45,7 @@ from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.forward import Investigation, Refused
 from pyimu.identification.search.inexact import left_by_forms
 from pyimu.identification.search.leftover import Unexplained
-from pyimu.identification.search.rounded import OF_DIGITS
+from pyimu.identification.search.rounded import OF_DIGITS, less_rounding, without_rounding
 from pyimu.identification.third_sensor import and_magnetometer, of_magnetometer
 from pyimu.identification.verdict.can_tell import rows_fitted, shows_anything, unfit
 from pyimu.identification.verdict.declared import changed_noise, drifting, released
@@ -177,7 +177,7 @@ def _noises(
     """What is random in what each sensor leaves, told apart where the references fit."""
     return {
         kind: _unless_remembered(
-            _noise(start, inv, model, len(found), fits and _is_noise(inv, looks[kind])),
+            _beside_digits(start, inv, model, len(found), fits and _is_noise(inv, looks[kind])),
             looks[kind].memory,
         )
         for kind, inv in found.items()
@@ -263,6 +263,21 @@ def _findings(
         changed += noises[kind].changed
         drifts |= {kind: dict(noises[kind].drift)} if noises[kind].drift else {}
     return added, changed, drifts
+
+
+def _beside_digits(
+    start: Part, inv: Investigation, model: Model, sensors: int, is_noise: bool
+) -> Noise:
+    """What is random in what an investigation left, or nothing but what its reference's digits
+    leave where they account for it.
+    """
+    found = _noise(start, inv, model, sensors, is_noise)
+    after = without_rounding(inv.after) if found.is_more else None
+    if after is None:
+        return found
+    less = replace(inv, after=after, held=tuple(less_rounding(inv.after, t) for t in inv.held))
+    beside = _noise(start, less, model, sensors, is_noise)
+    return found if beside.is_more else beside
 
 
 def _noise(start: Part, inv: Investigation, model: Model, sensors: int, is_noise: bool) -> Noise:

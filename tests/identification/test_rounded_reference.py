@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import pyimu
+from pyimu.model.part_reader import parse_part
 from pyimu.recording.quality.resolution import last_digit
 from pyimu.recording.recording import Recording
 
@@ -23,9 +24,9 @@ def table(seed, count, minutes=5.0):
     return np.concatenate(out)
 
 
-def log(seed, digit, count=3):
+def log(seed, digit, count=3, noise=NOISE):
     rate = table(seed, count)
-    noise = NOISE * np.random.default_rng(seed + 1).standard_normal(rate.shape)
+    noise = noise * np.random.default_rng(seed + 1).standard_normal(rate.shape)
     shown = np.rint(rate / digit) * digit if digit else rate
     time = H * np.arange(len(rate))
     return Recording.from_arrays(time=time, gyro=rate + noise, ref_rate=shown, name="table")
@@ -64,3 +65,36 @@ def test_digits_that_stand_and_jump_are_no_telegraph_noise():
     gyro = rate + 1e-3 * noise
     closed = pyimu.close(Recording.from_arrays(time=time, gyro=gyro, ref_rate=shown))
     assert not closed.added and not closed.unexplained, closed.report()
+
+
+def declared(noise):
+    """The part of ``log``, which hardly wanders."""
+    return parse_part(f"""
+name = "declared"
+sample_rate = {{ value = 100, unit = "Hz" }}
+[gyro]
+angle_random_walk.N = {{ value = {noise * H**0.5}, unit = "rad/sqrt(s)" }}
+rate_random_walk.K = {{ value = 1e-6, unit = "rad/s/sqrt(s)" }}
+""")
+
+
+@pytest.mark.parametrize(
+    "seed, count, noise", [(31, 8, NOISE), (33, 3, NOISE), (33, 20, 2 * NOISE), (33, 20, 4 * NOISE)]
+)
+def test_what_rounding_leaves_is_no_noise_of_the_sensor(seed, count, noise):
+    """What a digit is off by stays for as long as the speed does: it was a drift, a bias of many
+    levels, or what follows the rate.
+    """
+    closed = pyimu.close(log(seed, DIGIT, count, noise), declared(noise))
+    assert closed.verdict == "clean" and not closed.added, closed.report()
+
+
+@pytest.mark.parametrize("seed", [41, 42])
+def test_a_drift_beyond_rounding_is_said_all_the_same(seed):
+    """A random walk that ends some ten digits away."""
+    rounded = log(seed, DIGIT)
+    steps = np.random.default_rng(seed).standard_normal(rounded.gyro.shape)
+    gyro = rounded.gyro + 1e-3 * np.sqrt(H) * np.cumsum(steps, axis=0)
+    wanders = Recording.from_arrays(time=rounded.time, gyro=gyro, ref_rate=rounded.ref_rate)
+    closed = pyimu.close(wanders, declared(NOISE))
+    assert closed.verdict == "drift" or closed.added, closed.report()

@@ -52,7 +52,7 @@ from pyimu.identification.search.forward import Investigation, Refused, Step
 from pyimu.identification.search.inexact import left_by_forms
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.own_signal import is_of_reference
-from pyimu.identification.search.rounded import within_digits
+from pyimu.identification.search.rounded import within_digits, without_rounding
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.silent import silent
@@ -112,7 +112,7 @@ def look(
         return Look(inv)
     judged = inv.after.as_declared()
     left = scored(judged, terms)
-    fires = left.p_value < UNEXPLAINED
+    fires = left.p_value < UNEXPLAINED and not _is_rounding(judged, terms)
     if not fires and not _may_be_one(inv):
         return Look(inv)
     # By the noise that it shows itself: a residual that wanders more than is declared follows many
@@ -155,6 +155,12 @@ def _may_be_one(inv: Investigation) -> bool:
     """
     named = [CATALOGUE[s.effect] for s in inv.steps if not s.declared]
     return len(named) > 1 or any(e.is_line for e in named)
+
+
+def _is_rounding(fit: Fit, terms: list[Term]) -> bool:
+    """Whether nothing is left that depends on inputs beside the rounding of the references."""
+    beside = without_rounding(fit)
+    return beside is not None and scored(beside, terms).p_value >= UNEXPLAINED
 
 
 def _is_of_reference(left: Fit, scores: Scores) -> bool:

@@ -48,6 +48,11 @@ class Noise:
     gained: float = 0.0
     unasked: str = ""
 
+    @property
+    def is_more(self) -> bool:
+        """Whether there is noise that the part lacks, or a shape that no noise has."""
+        return bool(self.added or self.drift or self.shapes)
+
 
 def noise_of(
     sensor: Sensor, inv: Investigation, free: frozenset[str], rounds: bool, sensors: int
