@@ -17,7 +17,6 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.formula.formula import Formula
-from pyimu.identification.formula.memory import Remembered
 from pyimu.identification.formula.search import Look
 from pyimu.identification.found.entries import Added, Changed, LogEntry
 from pyimu.identification.found.exhibits import Exhibits, exhibits_of
@@ -29,8 +28,7 @@ from pyimu.identification.model.as_part import SENSORS, as_part
 from pyimu.identification.model.estimated import estimated
 from pyimu.identification.model.model_of import Found, Model
 from pyimu.identification.model.unshown import with_unshown_held
-from pyimu.identification.noise.named import Noise, noise_of
-from pyimu.identification.noise.rounding import is_coarse
+from pyimu.identification.noise.named import Noise
 from pyimu.identification.plan.advice import advice
 from pyimu.identification.reference.gravity import few
 from pyimu.identification.reference.order import other_order
@@ -40,20 +38,17 @@ from pyimu.identification.report.clocks import or_gain, taken_out, undone
 from pyimu.identification.report.references import references
 from pyimu.identification.result import Closed
 from pyimu.identification.rivals.confounds import what_no_log_tells_apart
-from pyimu.identification.search.belief import most
-from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.forward import Investigation, Refused
-from pyimu.identification.search.inexact import left_by_forms
 from pyimu.identification.search.leftover import Unexplained
-from pyimu.identification.search.rounded import OF_DIGITS, less_rounding, without_rounding
+from pyimu.identification.search.rounded import OF_DIGITS
 from pyimu.identification.third_sensor import and_magnetometer, of_magnetometer
 from pyimu.identification.verdict.can_tell import rows_fitted, shows_anything, unfit
-from pyimu.identification.verdict.declared import changed_noise, drifting, released
+from pyimu.identification.verdict.declared import released
 from pyimu.identification.verdict.fates import Fate, fates
+from pyimu.identification.verdict.random import noises_of
 from pyimu.identification.verdict.ranges import beyond, set_to_zero
 from pyimu.identification.verdict.verdict import Evidence, Verdict, verdict
 from pyimu.identification.verdict.visibility import visibility
-from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
@@ -62,10 +57,6 @@ from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import looks_like_degrees
 from pyimu.recording.reference.force import has_places
 from pyimu.report.numbers import joined
-
-MORE_THAN_NOISE = "kinds of noise are told apart only where nothing else is left"
-REMEMBERED = "what is left follows the motion, with a memory of it"
-AS_FORM = "what noise was found is no more than the form of an effect may leave"
 
 
 def conclude(
@@ -92,7 +83,7 @@ def conclude(
     another = unfit(found)
     magnetometer = examined(start, logs, others, found, another, say)
     say("what is random in what is left")
-    noises = _noises(start, fitting, model, looks, not another)
+    noises = noises_of(start, fitting, model, looks, not another)
     model = model.with_noise(noises)
     model = replace(model, after=with_magnetometer(model.after, start, magnetometer))
     added, changed, drifts = _findings(start, declared, fitting, model, noises, say)
@@ -171,29 +162,6 @@ def _shown(e: Evidence, logs: list[Recording]) -> dict[str, Any]:
     }
 
 
-def _noises(
-    start: Part, found: Found, model: Model, looks: Mapping[str, Look], fits: bool
-) -> dict[str, Noise]:
-    """What is random in what each sensor leaves, told apart where the references fit."""
-    return {
-        kind: _unless_remembered(
-            _beside_digits(start, inv, model, len(found), fits and _is_noise(inv, looks[kind])),
-            looks[kind].memory,
-        )
-        for kind, inv in found.items()
-    }
-
-
-def _unless_remembered(noise: Noise, memory: Remembered | None) -> Noise:
-    """What is random in a residual, or what this remembers of the motion where that explains more:
-    slow noise follows whatever is slow, by less.
-    """
-    slow = sum(a.gain for a in noise.added) + sum(noise.drift.values())
-    if memory is None or noise.shapes or memory.gain <= slow + SET_WIDTH:
-        return noise
-    return Noise(shapes=memory.unexplained, unasked=REMEMBERED)
-
-
 def _unexplained(
     rounded: Collection[str], looks: Mapping[str, Look], noises: Mapping[str, Noise]
 ) -> tuple[Unexplained, ...]:
@@ -263,63 +231,6 @@ def _findings(
         changed += noises[kind].changed
         drifts |= {kind: dict(noises[kind].drift)} if noises[kind].drift else {}
     return added, changed, drifts
-
-
-def _beside_digits(
-    start: Part, inv: Investigation, model: Model, sensors: int, is_noise: bool
-) -> Noise:
-    """What is random in what an investigation left, or nothing but what its reference's digits
-    leave where they account for it.
-    """
-    found = _noise(start, inv, model, sensors, is_noise)
-    after = without_rounding(inv.after) if found.is_more else None
-    if after is None:
-        return found
-    less = replace(inv, after=after, held=tuple(less_rounding(inv.after, t) for t in inv.held))
-    beside = _noise(start, less, model, sensors, is_noise)
-    return found if beside.is_more else beside
-
-
-def _noise(start: Part, inv: Investigation, model: Model, sensors: int, is_noise: bool) -> Noise:
-    """What is random in what an investigation of a part left.
-
-    Kinds are told apart where ``is_noise`` says that nothing else is known to be left.
-    """
-    rounded = model.rounding[inv.after.sensor.kind]
-    sensor = rounded.of_increments(start.sensor(inv.after.sensor.kind))
-    free = frozenset(e for kind, e, _ in start.estimate if kind == sensor.kind)
-    rounds = rounded.relevant or is_coarse(sensor, inv.after)
-    unasked = MORE_THAN_NOISE
-    if is_noise:
-        found = noise_of(sensor, inv, free, rounds, sensors)
-        if all(_counts(inv, a) for a in found.added):
-            return found
-        unasked = found.unasked or AS_FORM
-    if rounds or free & {WHITE[0], WALK[0]}:
-        return Noise(unasked=unasked)
-    return Noise(
-        changed=changed_noise(start, sensor.kind, inv.after),
-        drift=drifting(sensor.kind, inv.after, sensor).get(sensor.kind, {}),
-        unasked=unasked,
-    )
-
-
-def _counts(inv: Investigation, a: Added) -> bool:
-    """Whether a noise is more than what the form of an effect may leave, and no larger than any."""
-    values = a.parameters.items()
-    sizes = [most(a.effect, a.sensor, name) >= np.nanmax(np.abs(v)) for name, (v, *_) in values]
-    return a.gain > left_by_forms(inv.after, inv.steps) and all(sizes)
-
-
-def _is_noise(inv: Investigation, look: Look) -> bool:
-    """Whether what is left may be noise.
-
-    It follows no input, nor a clock that wanders, nor the edges of what the output does.
-    """
-    if any(CATALOGUE[s.effect].stage == "output" for s in inv.steps):
-        return False
-    clocks = [t.clock for t in inv.after.trials if t.clock is not None and t.clock.is_seen]
-    return look.unexplained is None and all(c.is_steady for c in clocks)
 
 
 def _gained(noises: dict[str, Noise]) -> dict[str, float]:

@@ -5,10 +5,10 @@ import pytest
 from effect_logs.cases import make
 from effect_results.record import closed
 
-from pyimu.identification.conclude import _unless_remembered
 from pyimu.identification.formula.memory import Remembered, low_passed
 from pyimu.identification.noise.named import Noise
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.verdict.random import _unless_remembered
 
 SEEN = (Unexplained("gyro", "x", ("rate",), 1e-9, "a memory of the rate"),)
 
