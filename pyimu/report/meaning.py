@@ -77,7 +77,10 @@ MEANING = {
         "the reference lags less where it turns faster, as behind a filter that adapts; undone"
     ),
     "reference_clock": "the reference's clock is off the sensor's by so much; it was taken out",
-    "reference_digits": "the reference's numbers are rounded: what that may do is no effect, drift or jump of the sensor",
+    "reference_digits": (
+        "the reference's numbers are rounded: what that may do is no effect, drift or jump of the "
+        "sensor"
+    ),
     "reference_frame": "the reference fits once it is turned: is it in another frame?",
     "reference_heading": "attitudes and positions count their headings from other directions",
     "reference_jump": "a step in the reference's path that no body makes",
