@@ -16,6 +16,7 @@ from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.guessed import Guess, Proposal
+from pyimu.recording.guess.names import named
 from pyimu.recording.guess.proposal import ZEROS, forces, proposed
 from pyimu.recording.guess.writing import MapGiven, text_of
 from pyimu.recording.known import STATED, is_own, recognised
@@ -209,6 +210,15 @@ def _by_numbers(found: Inspection, readers: Sequence[Reader]) -> Inspection:
     return replace(found, proposals=guesses, column_map=text_of(_ordered(guesses)))
 
 
+def _no_times(reader: Reader) -> str:
+    """Which columns are called times and are none."""
+    numeric = reader.numeric()
+    there = [c for k, c in enumerate(reader.header) if named(c).is_time and k not in numeric]
+    if not there:
+        return ""
+    return f": {', '.join(there)} has no numbers, dates with times or times of day"
+
+
 def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: str) -> Recording:
     """The log by the map that was written."""
     order = sorted(range(len(readers)), key=lambda k: "gyro" not in proposals[k].groups)
@@ -230,6 +240,8 @@ def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: st
         asked = " and ".join(dict.fromkeys(unknown))
         raise UserError(f"{reader.path}: nothing tells the unit of {asked}: choose it in the map")
     if first.timeless:
-        raise UserError(f"{reader.path}: nothing tells when its samples were taken")
+        raise UserError(
+            f"{reader.path}: nothing tells when its samples were taken{_no_times(reader)}"
+        )
     foreign = map_of(parse_toml(text, "map"), Path("the map that was written"))
     return Log(Source.of(reader, foreign, first.holds)).read()

@@ -6,7 +6,6 @@ import re
 
 from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.columns import XYZ
-from pyimu.recording.formats.lines import lines
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.vectors import triad_map
 
@@ -23,10 +22,9 @@ def hyper_imu(reader: Reader) -> ForeignMap | None:
     """HyperIMU's text (its documentation, "Technical notes"): the sensors of Android in its units
     and axes, each vector x first, and ms since 1970 where the user asked for times.
     """
-    if not any(cell.endswith(".x") for cell in reader.header) or reader.in_memory:
+    if not any(cell.endswith(".x") for cell in reader.header):
         return None
-    first = next(lines(reader.path), "")
-    if not re.match(r"@ *HyperIMU", first, re.I):
+    if not re.match(r"@ *HyperIMU", next(reader.lines(), ""), re.I):
         return None
     columns: dict[str, str] = {}
     for stem in (cell[:-2] for cell in reader.header if cell.endswith(".x")):

@@ -27,7 +27,7 @@ from pyimu.recording.xsens import xsens
 STATED = "a table that states its units"
 """What a log is called whose header says all of it."""
 
-WARM = ("degC", "K")
+WARM = ("degC", "K", "degF")
 """Units of temperatures."""
 
 Known = tuple[str, ForeignMap]

@@ -12,7 +12,6 @@ from pyimu.recording.column_map import BODY, ForeignMap
 from pyimu.recording.columns import XYZ
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.layout import FAR
-from pyimu.recording.formats.lines import lines
 from pyimu.recording.formats.marked import GNSS_LOGGER
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.hyper_imu import hyper_imu
@@ -39,7 +38,7 @@ def gyroflow(reader: Reader) -> ForeignMap | None:
     """
     if reader.header[:4] != ["t", "gx", "gy", "gz"]:
         return None
-    head = [line.strip() for line in islice(lines(reader.path), 60)]
+    head = [line.strip() for line in islice(reader.lines(), 60)]
     if not head or not head[0].upper().startswith(GYROFLOW):
         return None
     said = {key.strip(): value.strip() for key, _, value in (line.partition(",") for line in head)}
@@ -100,7 +99,7 @@ def _gnss_columns(word: str) -> dict[str, str]:
 def _words(reader: Reader) -> set[str]:
     """The words that rows of GnssLogger begin with."""
     found: set[str] = set()
-    for line in islice(lines(reader.path), FAR):
+    for line in islice(reader.lines(), FAR):
         found.add(line.partition(",")[0])
         if {"UncalAccel", "UncalMag"} <= found:
             break

@@ -327,7 +327,7 @@ class Rows:
                     f"; a counter of {bits} bits wraps after {span:.9g} s, but here more is "
                     "missing: cut the log there"
                 )
-        return ""
+        return "; cut the log where its clock was set anew, or sort the rows by time"
 
     def _report_repeats(
         self, time: np.ndarray, values: Mapping[str, np.ndarray], again: np.ndarray

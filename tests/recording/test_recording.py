@@ -133,7 +133,7 @@ def test_stamps_coarser_than_the_period_are_named(kind, said, tmp_path):
 @pytest.mark.parametrize(
     "text, says",
     [
-        ("", "not a recording"),
+        ("", "log.csv: is empty"),
         ("a,b\n1,2\n", "no 'time [s]' column"),
         (
             GYRO.replace("gyro_x [rad/s]", "gyro_x") + ROWS,

@@ -2,7 +2,8 @@
 
 A date that ends with its year may have its day first or its month: of ``2/1/2024 12:00:00`` the
 time of day alone counts, and of ``Wed Dec 22 21:09:46 2021``. Phones write milliseconds behind a
-third colon, ``12:00:00:010``.
+third colon, ``12:00:00:010``, spreadsheets AM or PM behind the time, and pandas' spans the days
+before it, ``0 days 00:00:00.010``.
 
 And those that Parquet files and data frames hold as such, with spans of time.
 """
@@ -21,9 +22,11 @@ _MONTH = "(?:Jan|Feb|Mar|Apr|May|Jun|Jul|Aug|Sep|Oct|Nov|Dec)"
 _PATTERN = (
     r"^\s*(?:(?P<year>\d{4})[-/](?P<month>\d{1,2})[-/](?P<day>\d{1,2})[T ]\s*"
     r"|\d{1,2}[-/.]\d{1,2}[-/.](?:\d{4}|\d{2})[T ]\s*"
-    rf"|{_WEEKDAY} {_MONTH} +\d{{1,2}} )?"
+    rf"|{_WEEKDAY} {_MONTH} +\d{{1,2}} "
+    r"|(?P<days>\d{1,5}) days? )?"
     r"(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2})"
     r"(?:[.,](?P<part>\d{1,9})\d*|:(?P<thousandths>\d{3}))?"
+    r"(?:\s*(?P<noon>[AaPp])\.?[Mm]\.?)?"
     r"\s*(?:Z|UTC|(?P<zone>[-+]\d{2}:?\d{2})| \d{4})?\s*$"
 )
 
@@ -54,12 +57,13 @@ class ClockTimes:
         field = {name: found.field(k) for k, name in enumerate(_names(found))}
         known = ~np.asarray(pc.is_null(found))
         hour, minute, second = (_whole(field[n], known) for n in ("hour", "minute", "second"))
+        hour = _of_the_day(hour, field["noon"])
         parts = pc.binary_join_element_wise(
             *(pc.fill_null(field[name], "") for name in ("part", "thousandths")), ""
         )
         digits = pc.utf8_rpad(parts, width=9, padding="0")
         seconds = hour * 3600 + minute * 60 + second - _zone(field["zone"], known)
-        days = _days(field, known)
+        days = _days(field, known) + _whole(field["days"], known)
         if known.any() and self._first_day is None:
             at = int(np.flatnonzero(known)[0])
             self._first_day = int(days[at])
@@ -122,6 +126,13 @@ def _whole(texts: pa.Array, known: np.ndarray) -> np.ndarray:
     filled = pc.fill_null(texts, "0")
     filled = pc.if_else(pc.equal(filled, ""), "0", filled)
     return np.where(known, filled.cast(pa.int64()).to_numpy(zero_copy_only=False), 0)
+
+
+def _of_the_day(hour: np.ndarray, noon: pa.Array) -> np.ndarray:
+    """Hours (n,) of the day of those on a dial, before or after ``noon`` where it says A or P."""
+    half = pc.utf8_upper(pc.fill_null(noon, ""))
+    after = np.asarray(pc.equal(half, "P"))
+    return np.where(np.asarray(pc.equal(half, "")), hour, hour % 12 + 12 * after)
 
 
 def _zone(texts: pa.Array, known: np.ndarray) -> np.ndarray:

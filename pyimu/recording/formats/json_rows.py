@@ -1,4 +1,5 @@
-"""Logs in JSON: a list of objects, one for each sample, as nuScenes' CAN bus and many apps have.
+"""Logs in JSON: a list of objects, one for each sample, as nuScenes' CAN bus and many apps have,
+or one on each line; or an object of lists, one for each column.
 
 A member that is a list of numbers makes the columns ``rotation_rate[0]`` and so on, one that is an
 object in turn ``accel.x``.
@@ -39,7 +40,7 @@ class JsonReader:
                 "apart at once; make a CSV or Parquet file of it"
             )
         with reading(path, "JSON"):
-            rows = _rows(json.loads(path.read_bytes()))
+            rows = _rows(_parsed(path.read_bytes()))
             cells = [dict(_flat("", row, 0)) for row in rows]
             names = dict.fromkeys(name for row in cells for name in row)
             if not names:
@@ -54,9 +55,22 @@ class JsonReader:
             return StreamReader(path, {name: _column(name, cells) for name in names}, body=None)
 
 
+def _parsed(text: bytes) -> Any:
+    """What is in a file; of one with an object on each line a list of them."""
+    first = text.lstrip().partition(b"\n")[0].rstrip()
+    if first[:1] == b"{" and first[-1:] == b"}" and len(first) < len(text.strip()):
+        return [json.loads(line) for line in text.splitlines() if line.strip()]
+    return json.loads(text)
+
+
 def _rows(data: Any) -> list[dict[str, Any]]:
-    """The list of objects that a file is, or whose only list it has; empty of any other."""
+    """The list of objects that a file is, or whose only list it has, or one made of its lists of
+    one length; empty of any other.
+    """
     if isinstance(data, dict):
+        columns = {name: v for name, v in data.items() if isinstance(v, list) and v}
+        if len(columns) > 1 and len({len(values) for values in columns.values()}) == 1:
+            return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values())]
         lists = [value for value in data.values() if isinstance(value, list) and value]
         data = lists[0] if len(lists) == 1 else None
     return data if isinstance(data, list) and all(isinstance(r, dict) for r in data) else []

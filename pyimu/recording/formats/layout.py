@@ -17,6 +17,7 @@ from pathlib import Path
 from pyimu.errors import UserError
 from pyimu.recording.columns import UNITS
 from pyimu.recording.formats.bodies import total_capture
+from pyimu.recording.formats.cells import MISSING, is_number
 from pyimu.recording.formats.clock_times import is_clock_time
 from pyimu.recording.formats.lines import UTF_8, code_of, is_comment, lines
 from pyimu.recording.formats.marked import (
@@ -31,12 +32,6 @@ from pyimu.recording.formats.novatel import novatel
 from pyimu.recording.formats.optical import optical
 from pyimu.recording.formats.unnamed import names_of
 from pyimu.recording.spelling import bare, unit_of
-
-MISSING = (
-    *("", "NaN", "nan", "NAN", "-nan", "-NaN", "NA", "N/A", "n/a", "#N/A"),
-    *("null", "NULL", "None", "-", "--"),
-)
-"""Cells of a table that hold no value."""
 
 HEAD = 120
 """Lines from which the layout is told."""
@@ -60,6 +55,11 @@ NO_TOPICS = (
     "of the column map"
 )
 """What is said of a file that holds one table."""
+
+MESSAGES = (
+    "of ROS's messages take the bag, or a table of them: rostopic echo -p, ros2 topic echo --csv"
+)
+"""What is said of messages that were printed, a number on a line."""
 
 MOST_NAMES = 3
 """Rows of names and units, at most."""
@@ -144,6 +144,14 @@ def layout_of(path: Path, topic: str = "") -> Layout:
     a topic that is not there.
     """
     head = list(islice(lines(path), HEAD))
+    if not any(line.strip() for line in head):
+        raise UserError(f"{path}: is empty")
+    if any("\r" in line.rstrip("\r\n") for line in head[:1]):
+        raise UserError(
+            f"{path}: its lines end with a carriage return alone; have them end with a line feed"
+        )
+    if {"angular_velocity:", "linear_acceleration:"} <= {line.strip() for line in head}:
+        raise UserError(f"{path}: is no table; {MESSAGES}")
     marked = _marked(head, path, topic)
     if marked is not None:
         told = (k for k, line in enumerate(head, 1) if _is_told(marked, line.strip()))
@@ -264,22 +272,6 @@ def _clocks(rows: Sequence[Sequence[str]], width: int) -> tuple[int, ...]:
     whole = [row for row in rows if len(row) == width]
     columns = [[row[k] for row in whole if row[k].strip() not in MISSING] for k in range(width)]
     return tuple(k for k, cells in enumerate(columns) if cells and all(map(is_clock_time, cells)))
-
-
-def is_number(cell: str, decimal: str = ".") -> bool:
-    """Whether a cell holds a number, or says that it holds none."""
-    cell = cell.strip()
-    if cell in MISSING:
-        return True
-    if decimal == ",":
-        if "." in cell:
-            return False
-        cell = cell.replace(",", ".")
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return "_" not in cell
 
 
 def _form(rows: Sequence[str]) -> Layout | None:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from pyimu.errors import UserError
+from pyimu.recording.formats.cells import ERRORS
 
 LONGEST = 1 << 18
 """Bytes of a line: a table of 10,000 columns has no longer ones, and a file without ends of lines
@@ -23,7 +24,7 @@ BLOCK = 1 << 20
 COMMENTS = ("#", "//", "%", '"#')
 """What a line of comment begins with."""
 
-NO_COMMENT = ("#N/A", '"#N/A')
+NO_COMMENT = (*ERRORS, *(f'"{error}' for error in ERRORS))
 """A row may begin so, where its first cell holds no value."""
 
 _MARKS = tuple(mark.encode() for mark in COMMENTS)

@@ -58,6 +58,10 @@ class Reader(ABC):
         """What was seen where the file ends, once it was read to there."""
         return ()
 
+    def lines(self) -> Iterator[str]:
+        """The lines of a text as they stand in it, none of any other file."""
+        return iter(())
+
     def numeric(self) -> list[int]:
         """Positions of the columns that hold numbers."""
         return list(range(len(self.header)))
@@ -110,6 +114,9 @@ class ReaderOver(Reader):
 
     def at_end(self) -> tuple[Finding, ...]:
         return self.reader.at_end()
+
+    def lines(self) -> Iterator[str]:
+        return self.reader.lines()
 
     def place(self, index: int) -> str:
         return self.reader.place(index)

@@ -20,7 +20,7 @@ from pyimu.recording.formats.bag import BagReader
 from pyimu.recording.formats.dataflash import DataflashReader, is_dataflash
 from pyimu.recording.formats.hdf5 import Hdf5Reader
 from pyimu.recording.formats.json_rows import JsonReader
-from pyimu.recording.formats.layout import NO_TOPICS
+from pyimu.recording.formats.layout import MESSAGES, NO_TOPICS
 from pyimu.recording.formats.mat import MatReader
 from pyimu.recording.formats.oxts import OxtsReader, oxts_in
 from pyimu.recording.formats.parquet import ParquetReader
@@ -42,12 +42,23 @@ READERS: Mapping[str, Any] = MappingProxyType(
         ".db3": BagReader,
         ".mcap": BagReader,
         ".json": JsonReader,
+        ".jsonl": JsonReader,
+        ".ndjson": JsonReader,
         ".ulg": UlogReader,
         ".bin": DataflashReader,
         ".log": DataflashReader,
     }
 )
 """The reader of each suffix; a folder with a ``metadata.yaml`` is a bag of ROS 2."""
+
+OTHERS: Mapping[str, str] = MappingProxyType(
+    dict.fromkeys((".xlsx", ".xls", ".xlsm", ".ods"), "save its sheet as CSV")
+    | dict.fromkeys((".zip", ".7z", ".rar", ".tar", ".tgz", ".tar.gz"), "unpack it")
+    | dict.fromkeys((".bz2", ".xz", ".zst", ".gz"), "unpack it")
+    | dict.fromkeys((".npy", ".npz", ".pkl", ".pickle", ".feather"), "make a CSV or Parquet of it")
+    | dict.fromkeys((".yaml", ".yml"), MESSAGES)
+)
+"""What is to be done with files of other suffixes; with any else see ``open_reader``."""
 
 MOST_NAMED = 6
 """Files of a folder that a message names."""
@@ -74,7 +85,7 @@ def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
         raise UserError(f"{path}: a folder, give the files in it{_tables_in(path)}")
     if not folder:
         check_regular(path)
-    reader = BagReader if folder else _by_suffix(path, READERS, "; rename text to .txt")
+    reader = BagReader if folder else _by_suffix(path, READERS, "rename text to .txt")
     if reader is DataflashReader and path.suffix.lower() == ".log" and not is_dataflash(path):
         reader = CsvReader
     if reader in WITH_TOPICS:
@@ -156,5 +167,8 @@ def _by_suffix(path: Path, choices: Mapping[str, Any], hint: str = "") -> Any:
     for suffix, choice in choices.items():
         if path.name.lower().endswith(suffix):
             return choice
+    if hint:
+        does = next((d for s, d in OTHERS.items() if path.name.lower().endswith(s)), None)
+        hint = f"; {does or hint}"
     suffixes = ", ".join(suffix for suffix in choices if suffix.count(".") < 2 or "csv" in suffix)
     raise UserError(f"{shortened(path)}: a recording's name must end in {suffixes}{hint}")

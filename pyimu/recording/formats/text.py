@@ -15,8 +15,9 @@ import pyarrow as pa
 from pyarrow import csv as pacsv
 
 from pyimu.errors import Finding, UserError
+from pyimu.recording.formats.cells import MISSING, is_number, padded
 from pyimu.recording.formats.clock_times import ClockTimes
-from pyimu.recording.formats.layout import HEAD, MISSING, UNCLOSED, Layout, is_number, layout_of
+from pyimu.recording.formats.layout import HEAD, UNCLOSED, Layout, layout_of
 from pyimu.recording.formats.lines import UTF_16, Body, is_comment, is_gzip, lines, opened
 from pyimu.recording.formats.reader import Columns, Reader
 
@@ -129,7 +130,7 @@ class CsvReader(Reader):
         convert = pacsv.ConvertOptions(
             column_types=kinds,
             include_columns=kept,
-            null_values=list(MISSING),
+            null_values=padded(),
             decimal_point=self.layout.decimal,
         )
         if not cleaned:
@@ -169,6 +170,9 @@ class CsvReader(Reader):
 
     def count(self, long: int) -> None:
         return None
+
+    def lines(self) -> Iterator[str]:
+        return lines(self.path)
 
     def numeric(self) -> list[int]:
         """Positions of the columns whose cells are numbers in the first rows."""

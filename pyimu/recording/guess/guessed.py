@@ -12,7 +12,7 @@ from pyimu.recording.columns import GROUP_OF
 CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s")} | {
     "mag": ("uT", "gauss", "mgauss"),
     "accel": ("m/s^2", "g"),
-    "temperature": ("degC", "K"),
+    "temperature": ("degC", "K", "degF"),
     "ref_q": ("rad", "deg"),
 }
 """Units to choose from where nothing tells."""

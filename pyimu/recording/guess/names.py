@@ -30,7 +30,7 @@ WEAK = {
 }
 """Letters and words that may stand for it, where they are the first word of the name."""
 
-TIMES = {"time", "timestamp", "stamp", "t", "ts", "clock"}
+TIMES = {"time", "times", "timestamp", "timestamps", "stamp", "stamps", "t", "ts", "clock"}
 """Words for times, behind which a unit of few letters is one."""
 
 MORE_TIMES = {"seconds", "epoch", "epoc", "elapsed", "sampletimefine", "tow"}
@@ -122,7 +122,9 @@ class Name:
 
     @property
     def is_temperature(self) -> bool:
-        return not self.axis and bool(set(self.words) & TEMPERATURES)
+        """Whether it is called one, or is in a unit that nothing else has."""
+        called = bool(set(self.words) & TEMPERATURES)
+        return not self.axis and (called or self.unit in ("degC", "degF"))
 
     def of(self, group: str) -> int:
         """How surely the name is one of ``group``: 0 not at all, 1 by a letter, 2 by a word."""
