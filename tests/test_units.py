@@ -67,6 +67,7 @@ SI = {
 PRINTED = {
     "dps": "deg/s",
     "deg/hr": "deg/h",
+    "dph": "deg/h",
     "mdps": "mdeg/s",
     "kph": "km/h",
     "knots": "kn",
@@ -308,6 +309,7 @@ def test_any_text_is_a_unit_or_a_unit_error(text):
         ("hz", "did you mean Hz"),
         ("degg/s", "known are"),
         ("foo", "known are"),
+        ("codes/g", "did you mean LSB?"),
     ],
 )
 def test_refused_with_reason(text, says):

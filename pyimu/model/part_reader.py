@@ -31,6 +31,7 @@ from pyimu.model.part_entry import (
     is_density,
 )
 from pyimu.model.sensor import Sensor
+from pyimu.model.sheet_names import SHEET_NAMES
 from pyimu.model.tolerance import DISTRIBUTIONS, Tolerance
 
 _TOP_KEYS = ("name", "description", "sample_rate", *TRIADS, TOLERANCE)
@@ -165,7 +166,9 @@ class _Reader:
     def _effect(self, where: str, kind: str, name: str) -> Effect:
         e = CATALOGUE.get(name)
         if e is None:
-            raise self.error(where, f"unknown effect; {meant(name, CATALOGUE)}")
+            called = SHEET_NAMES.get(str(name).lower())
+            hint = f"it is called {called} here" if called else meant(name, CATALOGUE)
+            raise self.error(where, f"unknown effect; {hint}")
         if kind not in e.triads:
             raise self.error(where, f"is an effect of {' and '.join(e.triads)}, not of {kind}")
         return e

@@ -7,8 +7,10 @@ import pytest
 
 from pyimu.cli import main
 from pyimu.errors import UserError
+from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.part_file import new_part, part, part_names, remarks
 from pyimu.model.part_reader import parse_part
+from pyimu.model.sheet_names import SHEET_NAMES
 
 
 def filled(text):
@@ -72,3 +74,8 @@ def test_the_command_writes_it_here(tmp_path, monkeypatch, capsys):
 
 def test_what_the_template_tells_its_reader_is_no_remark_on_the_part(written):
     assert remarks(written) == ""
+
+
+def test_a_row_of_a_data_sheet_belongs_to_an_effect_that_there_is():
+    assert set(SHEET_NAMES.values()) <= set(CATALOGUE)
+    assert not set(SHEET_NAMES) & set(CATALOGUE)

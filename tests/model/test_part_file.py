@@ -124,6 +124,11 @@ ERRORS = dict(
             "gyro.angel_random_walk: unknown effect; did you mean angle_random_walk?",
         ),
         ("[gyro.zzz]", "gyro.zzz: unknown effect; known are "),
+        (
+            "[gyro.velocity_random_walk]",
+            "gyro.velocity_random_walk: unknown effect; it is called angle_random_walk here",
+        ),
+        ("[gyro.Sensitivity]", "gyro.Sensitivity: unknown effect; it is called quantization here"),
         ("[gyros.scale_factor]", "gyros: unknown key; did you mean gyro?"),
         (
             "[gyro.angle_random_walk]\nn = 3",
