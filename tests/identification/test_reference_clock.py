@@ -104,6 +104,23 @@ def test_a_constant_lag_is_found_to_its_standard_error(late):
     assert clock.std < 1e-4 and clock.explained > 0.999
 
 
+def test_a_clock_is_seen_by_moves_too_short_for_a_window_each():
+    """Moves of 0.12 s every 3 s, each about another direction: a dozen rows in a window."""
+    rng, late = np.random.default_rng(5), -0.024
+    starts = np.arange(1.0, SECONDS - 2.0, 3.0)
+    sizes = rng.standard_normal((len(starts), 3))
+
+    def moves(t):
+        within = np.clip((t[:, None] - starts) / 0.12, 0.0, 1.0)
+        return (16.0 * within**2 * (1.0 - within) ** 2) @ sizes
+
+    gyro = moves(TIME - late) + NOISE * rng.standard_normal((len(TIME), 3))
+    clock = seen(Recording.from_arrays(name="moves", time=TIME, gyro=gyro, ref_rate=moves(TIME)))
+    assert clock.std < 1e-3
+    # Five standard errors, and a hundredth of a row: a parabola between rows misses such a bend.
+    assert abs(clock.mean - late) < 5 * clock.std + 1e-2 * H
+
+
 def test_a_clock_that_slips_is_followed():
     clock = seen(log(SAWTOOTH))
     assert not clock.keeps_step

@@ -273,13 +273,24 @@ def _windows(trial: Trial, sensor: Sensor):
         missed = np.linalg.norm(left + late * turned, axis=1)
         good = moving & (missed < FITTING * speed)
     length = max(WINDOW, ROWS * trial.band.stride * trial.h)
-    window = ((time[good] - trial.time[0]) / length).astype(int)
-    edges = [*np.flatnonzero(np.diff(window, prepend=-1)), good.sum()]
-    places = [(a, b) for a, b in pairwise(edges) if b - a >= LEAST_ROWS]
-    if not places:
-        return None
+    places = _places(time[good] - trial.time[0], length)
     known = [v[good] for v in (x, slope, y - gain[0], seen)]
     return _by_window(time[good], *known, gain[1:], late, places)
+
+
+def _places(time: np.ndarray, length: float) -> list[tuple[int, int]]:
+    """First and next row of each window of moving rows at ``time`` (m,) s that says something.
+
+    Short moves between rests leave few rows in each: windows are twice as long, and again, until
+    half of the rows are in one.
+    """
+    while True:
+        window = (time / length).astype(int)
+        edges = [*np.flatnonzero(np.diff(window, prepend=-1)), len(time)]
+        places = [(a, b) for a, b in pairwise(edges) if b - a >= LEAST_ROWS]
+        if 2 * sum(b - a for a, b in places) >= len(time):
+            return places
+        length *= 2.0
 
 
 def _slope(trial: Trial, values: np.ndarray) -> np.ndarray:
