@@ -121,6 +121,15 @@ def test_a_clock_is_seen_by_moves_too_short_for_a_window_each():
     assert abs(clock.mean - late) < 5 * clock.std + 1e-2 * H
 
 
+@pytest.mark.parametrize("late", [0.3, -0.3])
+def test_a_lag_is_found_below_noise_larger_than_the_motion(late):
+    """As attitudes of 0.2 deg at 100 Hz have it once they are differentiated. A window of 2.5 s
+    knows the lag to 250 samples of noise over slopes of 5 rad/s^2: 9 ms.
+    """
+    clock = seen(log(late, reference_noise=0.7))
+    assert clock.explained > 0.9 and np.abs(clock.at(TIME).mean() - late) < 5 * 0.009
+
+
 def test_a_clock_that_slips_is_followed():
     clock = seen(log(SAWTOOTH))
     assert not clock.keeps_step
