@@ -39,7 +39,7 @@ from pyimu.identification.reference.gravity import few, rest_trials
 from pyimu.identification.reference.of_itself import made_of_it
 from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
-from pyimu.identification.reference.turned import with_turned_force
+from pyimu.identification.reference.turned import with_rest_of_turn, with_turned_force
 from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.reference.unfiltered import unfiltered_logs, with_sharp_places
 from pyimu.identification.reference.upright import with_upright_places
@@ -190,6 +190,10 @@ def _investigated(
         if kind == "accel":
             known, both = clocks_of(turning), [*turning[0], *turning[1]]
             given = tuple([with_turned_force(r, both) for r in some] for some in given)
+            were = {id(r) for r in (*logs, *others)}
+            make = with_rest_of_turn(
+                make, {r.name for some in given for r in some if id(r) not in were}
+            )
         made = partial(aligned_trials, start.sensor(kind), make, *given, latitude, known=known)
         trials, held = prepared(*(turning if kind == "gyro" else made()), bool(others))
         if kind == "accel" and not any(map(is_differentiated, trials)):

@@ -104,6 +104,32 @@ def test_a_constant_lag_is_found_to_its_standard_error(late):
     assert clock.std < 1e-4 and clock.explained > 0.999
 
 
+def test_a_clock_is_seen_by_moves_too_short_for_a_window_each():
+    """Moves of 0.12 s every 3 s, each about another direction: a dozen rows in a window."""
+    rng, late = np.random.default_rng(5), -0.024
+    starts = np.arange(1.0, SECONDS - 2.0, 3.0)
+    sizes = rng.standard_normal((len(starts), 3))
+
+    def moves(t):
+        within = np.clip((t[:, None] - starts) / 0.12, 0.0, 1.0)
+        return (16.0 * within**2 * (1.0 - within) ** 2) @ sizes
+
+    gyro = moves(TIME - late) + NOISE * rng.standard_normal((len(TIME), 3))
+    clock = seen(Recording.from_arrays(name="moves", time=TIME, gyro=gyro, ref_rate=moves(TIME)))
+    assert clock.std < 1e-3
+    # Five standard errors, and a hundredth of a row: a parabola between rows misses such a bend.
+    assert abs(clock.mean - late) < 5 * clock.std + 1e-2 * H
+
+
+@pytest.mark.parametrize("late", [0.3, -0.3])
+def test_a_lag_is_found_below_noise_larger_than_the_motion(late):
+    """As attitudes of 0.2 deg at 100 Hz have it once they are differentiated. A window of 2.5 s
+    knows the lag to 250 samples of noise over slopes of 5 rad/s^2: 9 ms.
+    """
+    clock = seen(log(late, reference_noise=0.7))
+    assert clock.explained > 0.9 and np.abs(clock.at(TIME).mean() - late) < 5 * 0.009
+
+
 def test_a_clock_that_slips_is_followed():
     clock = seen(log(SAWTOOTH))
     assert not clock.keeps_step

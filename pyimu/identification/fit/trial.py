@@ -32,7 +32,7 @@ from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.filled import FILLED, filled_in, resolution
 from pyimu.recording.reference.force import ORDER, reference_force
 from pyimu.recording.reference.rate import reference_rate
-from pyimu.recording.reference.stamps import at_times
+from pyimu.recording.reference.stamps import at_times, evenly_sampled
 from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
 from pyimu.recording.reference.unlagged import ADAPTS, LAG
 from pyimu.recording.reference.unsmoothed import SMOOTHED
@@ -300,8 +300,10 @@ def accel_trial(recording: Recording, static: bool, latitude: float | None = Non
         return None
     if recording.ref_force is None and not static:
         return _place_trial(recording, latitude)
-    u, known = environment(recording)
     force = recording.ref_force
+    even = None if force is None else evenly_sampled(recording, force)
+    recording = recording if even is None else at_times(recording, even)
+    u, known = environment(recording)
     if force is None:
         force = np.broadcast_to(np.nanmean(recording.accel, axis=0), recording.accel.shape)
     u[:, OWN["accel"]] = np.where(np.isfinite(force), force, 0.0)

@@ -13,6 +13,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+from scipy.ndimage import uniform_filter1d
 
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.columns import band_time, in_band
@@ -34,7 +35,7 @@ from pyimu.identification.reference.wandering import wandering_lag
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.reference.epoch import correlations
+from pyimu.recording.reference.epoch import PERIOD, correlations
 
 WINDOW, ROWS = 2.5, 32
 """s; windows of the fine lag, and the least rows of the band that one covers."""
@@ -212,13 +213,16 @@ def rebanded(trial: Trial) -> Trial:
 
 
 def _coarse(trial: Trial) -> float:
-    """Lag in s at which the sizes of the two rates correlate best.
+    """Lag in s at which the sizes of the two rates, in means over ``PERIOD``, correlate best: the
+    noise of an attitude, once differentiated, may be larger than the motion from row to row.
 
     0 where that is hardly better than without a lag; of a motion that repeats, with which many
     correlate alike, the shortest.
     """
     x, y, counted = _both(trial)
-    x, y = np.linalg.norm(x, axis=1), np.linalg.norm(y - np.median(y, axis=0), axis=1)
+    means = max(round(PERIOD / trial.h), 1)
+    x, y = (uniform_filter1d(v, means, axis=0) for v in (x, y - np.median(y, axis=0)))
+    x, y = np.linalg.norm(x, axis=1), np.linalg.norm(y, axis=1)
     most = round(min(FARTHEST, (trial.time[-1] - trial.time[0]) / 4) / trial.h)
     lags = np.arange(-most, most + 1)
     both = counted.astype(float)
@@ -273,13 +277,24 @@ def _windows(trial: Trial, sensor: Sensor):
         missed = np.linalg.norm(left + late * turned, axis=1)
         good = moving & (missed < FITTING * speed)
     length = max(WINDOW, ROWS * trial.band.stride * trial.h)
-    window = ((time[good] - trial.time[0]) / length).astype(int)
-    edges = [*np.flatnonzero(np.diff(window, prepend=-1)), good.sum()]
-    places = [(a, b) for a, b in pairwise(edges) if b - a >= LEAST_ROWS]
-    if not places:
-        return None
+    places = _places(time[good] - trial.time[0], length)
     known = [v[good] for v in (x, slope, y - gain[0], seen)]
     return _by_window(time[good], *known, gain[1:], late, places)
+
+
+def _places(time: np.ndarray, length: float) -> list[tuple[int, int]]:
+    """First and next row of each window of moving rows at ``time`` (m,) s that says something.
+
+    Short moves between rests leave few rows in each: windows are twice as long, and again, until
+    half of the rows are in one.
+    """
+    while True:
+        window = (time / length).astype(int)
+        edges = [*np.flatnonzero(np.diff(window, prepend=-1)), len(time)]
+        places = [(a, b) for a, b in pairwise(edges) if b - a >= LEAST_ROWS]
+        if 2 * sum(b - a for a, b in places) >= len(time):
+            return places
+        length *= 2.0
 
 
 def _slope(trial: Trial, values: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ what is a turn and nothing else was made by who mounted the two.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -56,6 +56,19 @@ def with_turned_force(log: Recording, trials: Sequence[Trial]) -> Recording:
     if not known.any() or np.linalg.norm(left[1]) >= np.linalg.norm(left[0]):
         return log
     return replace(other, reference=None if log.reference is None else turned(log.reference))
+
+
+def with_rest_of_turn(make: Callable, turned: Collection[str]) -> Callable:
+    """What makes trials as ``make`` does, with a mounting to be found where the force of a log, by
+    name, was ``turned``: the gyro shows the turn as well as its motion and noise let it, and what
+    that lacks is no misalignment of the accelerometer.
+    """
+
+    def made(recording: Recording, *given) -> Trial | None:
+        trial = make(recording, *given)
+        return replace(trial, free_rotation=True) if trial and recording.name in turned else trial
+
+    return made
 
 
 def _may_be_turned(trial: Trial) -> bool:

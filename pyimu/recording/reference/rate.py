@@ -33,7 +33,7 @@ from pyimu.recording.reference.leaning import upward_through
 from pyimu.recording.reference.nodes import own_samples
 from pyimu.recording.reference.rocking import rate_about_z
 from pyimu.recording.reference.sampling import slope_at, through
-from pyimu.recording.reference.stamps import at_times, even_times, jitter_of
+from pyimu.recording.reference.stamps import at_times, even_times, evenly_sampled, jitter_of
 from pyimu.recording.reference.track import Track, fresh, known_axes
 from pyimu.recording.reference.unsmoothed import restored_up_to
 from pyimu.recording.rest import is_at_rest, motion_in
@@ -91,8 +91,7 @@ def reference_rate(recording: Recording, latitude: float | None = None) -> Refer
         raise UserError(f"latitude is {latitude} rad, expected -pi/2 to pi/2")
     source = recording if recording.reference is None else recording.reference
     if recording.ref_rate is not None and source is recording:
-        seen = _finite_runs(recording, recording.ref_rate)
-        return Reference(recording.ref_rate, "rate", None, seen)
+        return _in_its_rows(recording, recording.ref_rate)
     if recording.ref_rate is not None:
         return _of_another_clock(recording, source)
     earth = _latitudes(recording, latitude)
@@ -108,6 +107,16 @@ def reference_rate(recording: Recording, latitude: float | None = None) -> Refer
     return Reference(
         np.zeros((len(recording), 3)), "static", None, recording.segments, earth_rate=False
     )
+
+
+def _in_its_rows(recording: Recording, rate: np.ndarray) -> Reference:
+    """A rate that was measured in the rows of a recording, at even times where it was sampled so:
+    moved by a part of a row at stamps that scatter it would be the noisier the faster it changes.
+    """
+    even = evenly_sampled(recording, rate)
+    said = () if even is None else (jitter_of(recording, even, True, True),)
+    seen = _finite_runs(recording, rate)
+    return Reference(rate, "rate", None, seen, findings=said, time=even)
 
 
 def earth_rate_in_body(q: np.ndarray, latitude: np.ndarray | float) -> np.ndarray:

@@ -19,6 +19,9 @@ LEAST = 8
 
 TIMES = {False: "its stamps", True: "even times"}
 
+SURE = 5.0
+"""Standard errors by which a share of stamps that are right and one of even times are apart."""
+
 SCATTER = 0.01
 """Root mean square of the stamps about the line, in periods, below which they are taken as they
 are."""
@@ -39,6 +42,37 @@ def even_times(recording: Recording) -> np.ndarray | None:
         even[a:b] = grid + savgol_filter(time[a:b] - grid, window, 1, mode="interp")
     scatter = float(np.sqrt(np.mean((time - even) ** 2)))
     return even if scatter > SCATTER * h and np.all(np.diff(even) > 0) else None
+
+
+def evenly_sampled(recording: Recording, values: np.ndarray) -> np.ndarray | None:
+    """The even times (n,) s of the rows of a recording, whose stamps scatter, where ``values``
+    (n, k) in these rows show that they were sampled so; None where they follow the stamps, or are
+    too noisy to tell.
+
+    Of values sampled at the stamps the second differences hold the slope times those of what the
+    stamps are off; of values sampled evenly none of it. Noise in the slope would make the share
+    small: that across other rows is the instrument (Fuller 1987, "Measurement Error Models",
+    section 1.4).
+    """
+    even = even_times(recording)
+    if even is None:
+        return None
+    h, sums = recording.sample_period, []
+    for a, b in recording.segments:
+        if b - a >= LEAST:
+            v = values[a:b]
+            near = (v[5:-1] - v[1:-5]) / (4 * h)
+            far = (v[6:] - v[:-6]) / (6 * h)
+            off = np.diff(recording.time[a:b] - even[a:b], 2)[2:-2, None]
+            sums.append(np.stack([np.diff(v, 2, axis=0)[2:-2], near * off, far * off]))
+    known = np.concatenate(sums, axis=1).reshape(3, -1) if sums else np.zeros((3, 0))
+    bend, by, to = known[:, np.isfinite(known).all(axis=0)]
+    power = float(to @ by)
+    if power <= 0.0:
+        return None
+    share = float(to @ bend) / power
+    std = float(np.linalg.norm(to * (bend - share * by))) / power
+    return even if share < 0.5 and share + SURE * std < 1.0 else None
 
 
 def at_times(recording: Recording, time: np.ndarray) -> Recording:
