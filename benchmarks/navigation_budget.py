@@ -1,5 +1,5 @@
 """What throws the paper's integration off, one cause at a time: ``python
-benchmarks/navigation_budget.py [runs]``.
+benchmarks/navigation_budget.py [runs] [first seed]``.
 
 The drive of ``benchmarks/navigation.py`` by the method of Wongwirat 2010 less the nulls of the rest
 at the start, with sensors that have one error of ``examples/sparkfun6dof_assumed.toml`` and no
@@ -49,14 +49,14 @@ def alone(part, kept):
     return part
 
 
-def main(runs):
+def main(runs, first):
     part = pyimu.part(PART)
     print(f"{runs} runs{'':31} end, m      95 %   yaw deg")
     for name, kept in {"every error at once": None, **CAUSES}.items():
         level = {} if kept is None or name == TILT else {"tilt": (0.0, 0.0)}
         truth = square(**MORE | level)
         ends, yaws = [], []
-        for seed in range(runs if kept != {} else 1):
+        for seed in range(first, first + (runs if kept != {} else 1)):
             one = part.specimen(seed)
             one = one if kept is None else alone(one, kept)
             error = by_paper(replace(one, sample_rate=100.0).simulate(truth, seed=seed), REST)
@@ -69,4 +69,7 @@ def main(runs):
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else RUNS)
+    main(
+        int(sys.argv[1]) if len(sys.argv) > 1 else RUNS,
+        int(sys.argv[2]) if len(sys.argv) > 2 else 0,
+    )

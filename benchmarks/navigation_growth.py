@@ -1,5 +1,5 @@
 """How the error of the position grows with the time between two stops: ``python
-benchmarks/navigation_growth.py [runs] [PICTURE]``.
+benchmarks/navigation_growth.py [runs] [first seed] [PICTURE]``.
 
 One leg of 1 to 8 m and a turn of the drive of ``benchmarks/navigation.py``, by a part without other
 errors than its noise. Beside it the theory: white noise N of the gyro tips the attitude, that tips
@@ -41,12 +41,12 @@ def theory(part, seconds):
     return MEDIAN * STANDARD_GRAVITY * n.ravel()[0] * np.sqrt(np.asarray(seconds) ** 5 / 720)
 
 
-def measured(part, runs):
+def measured(part, runs, first):
     """Durations s of the legs, and the errors (legs, runs) m at the end."""
     times, errors = [], []
     for side in SIDES:
         truth = square(side, legs=1, **MORE)
-        logs = (part.simulate(truth, seed=seed) for seed in range(runs))
+        logs = (part.simulate(truth, seed=seed) for seed in range(first, first + runs))
         errors.append([run(log, part, method="filter").errors["filter"].end for log in logs])
         times.append(side / 0.3 + 0.5)
         print(
@@ -77,6 +77,7 @@ def drawn(part, times, errors, target):
 
 if __name__ == "__main__":
     noise_alone = replace(pyimu.part(PART), tolerances=())
-    found = measured(noise_alone, int(sys.argv[1]) if len(sys.argv) > 1 else RUNS)
-    if len(sys.argv) > 2:
-        drawn(noise_alone, *found, sys.argv[2])
+    runs, first = [int(a) for a in sys.argv[1:3]] + [RUNS, 0][len(sys.argv[1:3]) :]
+    found = measured(noise_alone, runs, first)
+    if len(sys.argv) > 3:
+        drawn(noise_alone, *found, sys.argv[3])

@@ -1,5 +1,5 @@
 """What a gyro without numbers, or at its limit, costs the position: ``python
-benchmarks/navigation_lost.py [runs]``.
+benchmarks/navigation_lost.py [runs] [first seed]``.
 
 The square of ``navigation.py``, whose filter knows the part and its tolerances; between 14 and 16 s
 and from 30 s on the robot drives straight. The median of the error at the end, the largest, and
@@ -34,9 +34,9 @@ CASES = {
 """Axes of the gyro that have no numbers, from when to when [s]."""
 
 
-def main(runs: int) -> None:
+def main(runs: int, first: int) -> None:
     part, truth = pyimu.part(PART), square(**MORE)
-    logs = [part.specimen(s).simulate(truth, seed=s) for s in range(runs)]
+    logs = [part.specimen(s).simulate(truth, seed=s) for s in range(first, first + runs)]
     print(f"{runs} runs{'':10}  end, m      max  yaw, deg      max")
     for name, (axes, start, end) in CASES.items():
         line(name, [without(log, axes, start, end) for log in logs], part)
@@ -65,4 +65,7 @@ def line(name, logs, part):
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else RUNS)
+    main(
+        int(sys.argv[1]) if len(sys.argv) > 1 else RUNS,
+        int(sys.argv[2]) if len(sys.argv) > 2 else 0,
+    )

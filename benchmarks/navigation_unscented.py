@@ -1,5 +1,5 @@
 """The position filter beside its unscented form: ``python benchmarks/navigation_unscented.py
-[runs]``.
+[runs] [first seed]``.
 
 The same errors, mechanisation, noise, measurements and gates, but the covariance through points of
 the error state (Julier and Uhlmann 2004, with the spread of a normal distribution's fourth moment)
@@ -159,7 +159,7 @@ def _functions(layout, p):
     return moved, between, (own, ca.Function("rate", [a], [ca.densify(rate)]))
 
 
-def main(runs):
+def main(runs, first):
     drive = Drive(**MORE)
     truth = motion(drive)
     still = np.zeros(len(truth.time))
@@ -168,7 +168,7 @@ def main(runs):
     own = known(PART, calibrated=True)
     print(f"{'apart [std]':8}{'RMS':>6}{'most':>9}{'at, s':>8}{'at the end':>12}", end="")
     print(f"{'end, linear':>12}{'unscented':>12}{'std':>8}")
-    for seed in range(runs):
+    for seed in range(first, first + runs):
         log = replace(logged(own, truth, seed), stationary=still)
         found = run(log, own, method="filter")
         linear, std = found.filter.vector("position"), found.filter.vector("position_std")
@@ -184,7 +184,7 @@ def main(runs):
         ends = [np.linalg.norm(x[-1, :2] - place) for x in (linear, position)]
         ratio = np.mean(wide[-1, :2] / std[-1, :2])
         print(
-            f"seed {seed:2}{rms:9.2f}{apart.max():9.2f}{log.time[far]:8.1f}{apart[-1].max():12.2f}"
+            f"seed {seed:4}{rms:9.2f}{apart.max():9.2f}{log.time[far]:8.1f}{apart[-1].max():12.2f}"
             f"{ends[0]:12.3f}{ends[1]:12.3f}{ratio:8.2f}",
             flush=True,
         )
@@ -203,4 +203,7 @@ assert BASE == 15  # the errors that are taken apart above
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 3)
+    main(
+        int(sys.argv[1]) if len(sys.argv) > 1 else 3,
+        int(sys.argv[2]) if len(sys.argv) > 2 else 0,
+    )
