@@ -14,7 +14,8 @@ from pyimu.identification.close import undeclared
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import accel_trial, gyro_trial
 from pyimu.identification.reference.align import LONGEST_OWN, aligned, in_common
-from pyimu.identification.reference.clock import measure
+from pyimu.identification.reference.clock import _places, measure
+from pyimu.identification.reference.moving import LEAST_ROWS
 from pyimu.identification.reference.slips import placed_slips
 from pyimu.identification.reference.track import WANDERS, level_of
 from pyimu.identification.report.page import page
@@ -711,3 +712,14 @@ def test_what_a_lever_does_is_no_clock_that_wanders():
     found = closed(make("size1/accel.size_effect", 121, (6.0, 9.0)))
     assert [a.effect for a in found.added] == ["size_effect"], found.report()
     assert not any(f.kind == "reference_clock" for f in found.quality)
+
+
+def test_windows_grow_until_half_of_the_rows_are_in_one():
+    """Of moves of a few rows each, far apart: all are in the last window at the latest."""
+    few = np.concatenate([100.0 * k + H * np.arange(LEAST_ROWS // 2) for k in range(4)])
+    assert _places(few, 1.0) == [(0, LEAST_ROWS)]
+    assert _places(few[:LEAST_ROWS], 1.0) == [(0, LEAST_ROWS)]
+    assert _places(H * np.arange(4 * LEAST_ROWS), 2 * H * LEAST_ROWS) == [
+        (0, 2 * LEAST_ROWS),
+        (2 * LEAST_ROWS, 4 * LEAST_ROWS),
+    ]

@@ -276,6 +276,8 @@ def _windows(trial: Trial, sensor: Sensor):
         late = -np.sum(turned[good] * left[good]) / power
         missed = np.linalg.norm(left + late * turned, axis=1)
         good = moving & (missed < FITTING * speed)
+    if good.sum() < LEAST_ROWS:
+        return None
     length = max(WINDOW, ROWS * trial.band.stride * trial.h)
     places = _places(time[good] - trial.time[0], length)
     known = [v[good] for v in (x, slope, y - gain[0], seen)]
@@ -286,7 +288,7 @@ def _places(time: np.ndarray, length: float) -> list[tuple[int, int]]:
     """First and next row of each window of moving rows at ``time`` (m,) s that says something.
 
     Short moves between rests leave few rows in each: windows are twice as long, and again, until
-    half of the rows are in one.
+    half of the rows are in one; all of them are in the last. Rows are ``LEAST_ROWS`` at least.
     """
     while True:
         window = (time / length).astype(int)
