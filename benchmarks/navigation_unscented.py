@@ -127,7 +127,7 @@ def _unpacked(column, n):
 
 def _functions(layout, p):
     """``x, error -> x``, ``x, x -> error``, and what a zero velocity and a zero rate measure."""
-    ends = np.cumsum([0, 4, 3, 3, 3, 3, len(layout.gains), 2 * layout.nhc, 0, 3]).tolist()
+    ends = np.cumsum([0, 4, 3, 3, 3, 3, len(layout.gains), 2 * layout.nhc, 0, 0, 3]).tolist()
     settings = prediction.settings_of(layout, ca.SX(ca.DM(p)))
 
     def state(column):
