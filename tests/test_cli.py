@@ -181,7 +181,7 @@ BAD_LOGS = {
     ),
     "too short": (lambda lines: lines[:30], ["too short", "29 rows, at least 64"]),
     "no rows": (lambda lines: lines[:1], ["rows of data, this one has 0"]),
-    "empty file": (lambda lines: [], ["no 'time [s]' column"]),
+    "empty file": (lambda lines: [], ["is empty"]),
 }
 
 
