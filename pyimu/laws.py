@@ -104,6 +104,11 @@ class t:
         """The probability above ``x``."""
         return special.stdtr(df, np.negative(x))
 
+    @staticmethod
+    def isf(p: ArrayLike, df: ArrayLike) -> np.ndarray:
+        """What is exceeded with the probability ``p``."""
+        return -special.stdtrit(df, p)
+
 
 def _log(p: np.ndarray, rest: np.ndarray) -> np.ndarray:
     """The logarithm of a probability, near one from the ``rest``."""

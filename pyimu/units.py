@@ -348,6 +348,9 @@ def convert(values, source: str | Unit, target: str | Unit):
 FREEZING = {"K": ZERO_CELSIUS, "degC": 0.0, "degF": 32.0}
 """What water freezes at, in units of temperature."""
 
+DEGREES = tuple(unit for unit in FREEZING if unit != "K")
+"""Units of temperatures alone: K may be of a difference, too."""
+
 
 def to_degc(values, unit: str | Unit):
     """Convert temperatures read in ``unit`` (``K``, ``degC`` or ``degF``) to degC; a float for a

@@ -46,6 +46,9 @@ def test_ratios():
             beta.sf(shares, above, below), stats.beta.sf(shares, above, below), rtol=1e-9
         )
     np.testing.assert_allclose(t.sf(X[:, None], below), stats.t.sf(X[:, None], below), rtol=1e-12)
+    some = P[P != 0.5, None]
+    np.testing.assert_allclose(t.isf(some, below), stats.t.isf(some, below), rtol=1e-9)
+    np.testing.assert_allclose(t.isf(0.5, below), 0.0, atol=1e-12)
 
 
 def test_what_is_outside_of_a_law_is_not_a_number():

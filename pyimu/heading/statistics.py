@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.stats import chi2, norm, t
+
+from pyimu.laws import chi2, norm, t
 
 LEVEL = 0.95
 """Probability of the intervals."""

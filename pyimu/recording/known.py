@@ -23,12 +23,10 @@ from pyimu.recording.optical import optical_body
 from pyimu.recording.programs import PROGRAMS
 from pyimu.recording.vectors import triad_map, unnamed
 from pyimu.recording.xsens import xsens
+from pyimu.units import FREEZING
 
 STATED = "a table that states its units"
 """What a log is called whose header says all of it."""
-
-WARM = ("degC", "K", "degF")
-"""Units of temperatures."""
 
 Known = tuple[str, ForeignMap]
 """What the log is, and its map."""
@@ -295,7 +293,7 @@ def stated(reader: Reader) -> ForeignMap | None:
         if triad.unit is not None and not rivals:
             columns |= triad_map([name.cell for name in triad.names], group, triad.unit)
     warm = thermometer(names)
-    if warm is not None and warm.unit in WARM and "temperature" not in own:
+    if warm is not None and warm.unit in FREEZING and "temperature" not in own:
         columns[warm.cell] = f"temperature [{warm.unit}]"
     if not any(target.startswith(("gyro", "accel")) for target in columns.values()):
         return None

@@ -74,7 +74,7 @@ def unit_of(text: str) -> str | None:
         if spelling:
             try:
                 unit = units.parse(spelling)
-                return unit.plain if unit.plain in ("degC", "degF") else unit.text
+                return unit.plain if unit.plain in units.DEGREES else unit.text
             except units.UnitError:
                 continue
     return None

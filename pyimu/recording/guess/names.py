@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from pyimu.recording.guess.endings import GLUED, fits, in_brackets, in_words
 from pyimu.recording.spelling import unit_of
-from pyimu.units import Unit, parse, same_dimension
+from pyimu.units import DEGREES, Unit, parse, same_dimension
 
 STRONG = {
     "gyro": {"gyr", "gyro", "gyros", "gyroscope", "omega", "angvel"},
@@ -124,7 +124,7 @@ class Name:
     def is_temperature(self) -> bool:
         """Whether it is called one, or is in a unit that nothing else has."""
         called = bool(set(self.words) & TEMPERATURES)
-        return not self.axis and (called or self.unit in ("degC", "degF"))
+        return not self.axis and (called or self.unit in DEGREES)
 
     def of(self, group: str) -> int:
         """How surely the name is one of ``group``: 0 not at all, 1 by a letter, 2 by a word."""

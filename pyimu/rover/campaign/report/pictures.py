@@ -6,8 +6,8 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy.stats import chi2
 
+from pyimu.laws import chi2
 from pyimu.report.figures import (
     AFTER,
     BEFORE,
