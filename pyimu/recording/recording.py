@@ -51,7 +51,7 @@ class Recording(_Columns):
     is the sample period, ``longest`` [s] the step above which there may be a gap, and ``gaps``
     (m,) the rows that follow one, where they are known otherwise than from ``time``: of a piece of
     a log they are the log's. ``reference`` is where the log's reference came from, if that has
-    times of its own.
+    times of its own, and ``reference_apart`` whether another clock gave them.
     """
 
     path: Path | None = None
@@ -62,6 +62,7 @@ class Recording(_Columns):
     longest: float | None = None
     gaps: np.ndarray | None = None
     reference: Recording | None = None
+    reference_apart: bool = False
 
     if TYPE_CHECKING:
 

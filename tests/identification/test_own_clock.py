@@ -84,7 +84,9 @@ def test_the_attitude_is_compared_with_the_part_as_its_file_has_it(monkeypatch):
 
 @pytest.mark.parametrize("size", [1, 8])
 def test_what_samples_waited_to_be_read_is_no_lag_of_the_sensor(size):
-    """The same lag of a sensor whose samples are read one by one may be its own."""
+    """The same lag of a sensor whose samples are read one by one may be its own; beside a reference
+    on another clock one log does not tell.
+    """
     log, mocap = pair(4, 4e-3, 40.0)
     row = np.arange(len(log.time))
     burst, within = row // size, row % size
@@ -93,7 +95,22 @@ def test_what_samples_waited_to_be_read_is_no_lag_of_the_sensor(size):
         name="log", time=read if size > 1 else log.time, gyro=log.gyro, accel=log.accel
     )
     closed = pyimu.close(log, reference=mocap)
-    lags = [a for a in closed.added if a.sensor == "gyro"]
+    assert not [a for a in closed.added if a.sensor == "gyro"]
     clock = closed.recordings[0].log_state["gyro"]["reference"]["clock"]
-    assert clock["taken_out"] == (size > 1) and bool(lags) == (size == 1)
-    assert clock["late"] == pytest.approx(4e-3, abs=5e-4)
+    assert clock["taken_out"] and clock["late"] == pytest.approx(4e-3, abs=5e-4)
+    assert closed.references[0]["or_sensor"] == (size == 1)
+    assert ("a single log does not tell" in closed.report()) == (size == 1)
+
+
+@pytest.mark.parametrize("holds", ["fitted", "held out", "another"])
+def test_a_lag_that_two_logs_have_beside_clocks_of_their_own_may_be_the_sensors(holds):
+    late, other = 4e-3, 4e-3 if holds != "another" else 12e-3
+    pairs = [pair(5, late, 40.0), pair(6, other, 40.0)]
+    logs, given = zip(*pairs, strict=True)
+    if holds == "fitted":
+        closed = pyimu.close(list(logs), reference=list(given))
+    else:
+        closed = pyimu.close(logs[0], holdout=logs[1], reference=list(given))
+    lags = [a.effect for a in closed.added if a.sensor == "gyro"]
+    assert lags == ([] if holds == "another" else ["time_delay"]), closed.report()
+    assert not any(r["or_sensor"] for r in closed.references)

@@ -58,7 +58,8 @@ class Clock:
     ``doubtful`` says that an effect may have made it look as if it drifted; ``unsure`` are the
     spans [s] in which nobody knows whether it has slipped yet; ``changed`` says that one lag stands
     for one that seemed to change. By up to ``apart`` s it may be off, where it was measured without
-    a lag that the sensor has.
+    a lag that the sensor has. ``or_sensor`` says that the sensor may be late as well, which one log
+    with a reference on another clock does not tell.
     """
 
     time: np.ndarray
@@ -73,6 +74,7 @@ class Clock:
     unsure: tuple[tuple[float, float], ...] = ()
     changed: bool = False
     apart: float = 0.0
+    or_sensor: bool = False
 
     @property
     def keeps_step(self) -> bool:

@@ -105,7 +105,8 @@ class Trial:
     whole stretches of the log. ``samples`` (m, 3) are those of the reference at times of its own,
     where it was measured itself. ``healed`` (n, 3) is what was taken off samples that look like
     spikes, where there are any; ``limited`` (n, 3) marks those that lie where the output stops and
-    that a band would spread.
+    that a band would spread. ``reference_apart`` says that another clock gave the reference its
+    times.
     """
 
     name: str
@@ -136,6 +137,7 @@ class Trial:
     samples: np.ndarray | None = None
     healed: np.ndarray | None = None
     limited: np.ndarray | None = None
+    reference_apart: bool = False
 
     @cached_property
     def band(self) -> Band:
@@ -504,6 +506,7 @@ def _trial(
         findings=findings,
         digits=digits,
         left_out=bad,
+        reference_apart=recording.reference_apart,
         healed=taken_off if taken_off is not None and taken_off.any() else None,
         **more,
     )

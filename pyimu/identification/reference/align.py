@@ -53,7 +53,9 @@ def aligned(
     As far as it is the reference's; their ``clock`` and ``findings`` say what was taken out.
 
     A lag may be the sensor's own where all fitted logs have it in common and the sensor is late. It
-    is left in then, for the effects that make one. The clock's is what differs from log to log,
+    is left in then, for the effects that make one; beside references in files of their own, on
+    another clock, where a second log, fitted or held, has it too. The clock's is what differs from
+    log to log,
     wanders, makes the sensor early, is longer than any sensor's, or lies beside a clock that
     somebody set, a lag that was undone, or samples that waited to be read in bursts. A clock that
     seems to drift or to wander by less than a sample is ``doubtful``, and has one lag where
@@ -63,10 +65,17 @@ def aligned(
     clocks += [_clock(t, sensor, lines, apart=True) for t in held]
     both = zip((*trials, *held), clocks, strict=True)
     clocks = [_or_known(t, c, known.get(t.name)) for t, c in both]
-    seen = [c for c in clocks[: len(trials)] if c is not None and np.isfinite(c.std)]
+    seen, others = _seen(clocks[: len(trials)]), _seen(clocks[len(trials) :])
     theirs = any(leaves_a_lag(f) for t in trials for f in t.findings)
     own, std = 0.0 if theirs else in_common(seen), _std_of_mean(seen)
+    if own and len(seen) == 1 and any(t.reference_apart for t in trials):
+        clocks = [c and replace(c, or_sensor=not others) for c in clocks]
+        own = own if others and in_common([*seen, *others]) else 0.0
     return [_aligned(t, c, own, std) for t, c in zip((*trials, *held), clocks, strict=True)]
+
+
+def _seen(clocks: Sequence[Clock | None]) -> list[Clock]:
+    return [c for c in clocks if c is not None and c.is_seen]
 
 
 def _or_known(trial: Trial, clock: Clock | None, known: Clock | None) -> Clock | None:

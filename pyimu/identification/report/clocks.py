@@ -20,6 +20,15 @@ from pyimu.report.numbers import joined, number, with_limits
 FEW = 3
 """Up to so many logs are said each by itself."""
 
+OR_SENSOR = (
+    "; the reference has a clock of its own, and whether that is early or the sensor late "
+    "(time_delay) a single log does not tell: a second, with both started anew, would"
+)
+"""What is said of a lag that one log shows beside a reference on another clock."""
+
+NO_ERROR = ", and no error of the sensor"
+"""What is said of a lag of any other clock."""
+
 Heading = tuple[float, float] | None
 
 
@@ -37,7 +46,8 @@ def taken_out(found: Mapping[str, Investigation], heading: Heading) -> str:
         said = f"the clocks of {len(clocks)} references are off by up to {_time(most)}"
     else:
         said = joined([_off(name, clock) for name, clock in clocks.items()])
-    return f"{said}: taken out, and no error of the sensor{_worth(heading)}"
+    whose = OR_SENSOR if any(c.or_sensor for c in clocks.values()) else NO_ERROR
+    return f"{said}: taken out{whose}{_worth(heading)}"
 
 
 def undone(findings: Sequence[Finding]) -> str:

@@ -218,7 +218,8 @@ def _lag(entry: dict[str, Any]) -> tuple[str, str]:
     else:
         said = with_error(late, 1e3 * offset["std"])
     if entry["taken_out"]:
-        return said, f"the clocks', taken out{_course(entry)}"
+        whose = "the clocks' or the sensor's" if entry["or_sensor"] else "the clocks'"
+        return said, f"{whose}, taken out{_course(entry)}"
     return said, "left to the sensor" if own["value"] else f"within {SIGNIFICANT:g} of its errors"
 
 

@@ -36,7 +36,9 @@ def references(
 
     ``clock_offset`` is by how much later than the reference says the sensor shows the motion, less
     what is left to the sensor; it is positive where the sensor is late. ``clock_skew`` is by how
-    much that grows in a second, ``slips`` when it jumps, and by how much.
+    much that grows in a second, ``slips`` when it jumps, and by how much. ``or_sensor`` says that
+    the sensor may be late by what was taken out, which one log beside a reference on another clock
+    does not tell.
     """
     entries = []
     for r in logs:
@@ -69,6 +71,7 @@ def _entry(
             "slips": None if clock is None else [s.as_dict() | {"unit": "s"} for s in clock.slips],
             "lag": None if clock is None or clock.keeps_step else _lag(clock),
             "taken_out": clock is not None and clock.taken_out,
+            "or_sensor": clock is not None and clock.or_sensor,
             "left_to_sensor": None if clock is None else {"value": clock.own, "unit": "s"},
             "mounting": {
                 "rotation": state["rotation"],

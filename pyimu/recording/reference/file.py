@@ -39,7 +39,7 @@ def with_reference(log: Recording, reference: Recording) -> Recording:
         **{g: None for g in GROUPS if g not in (*TRUTHS, "latitude")},
     )
     _check_overlap(log, moved)
-    return at_log(log, moved)
+    return replace(at_log(log, moved), reference_apart=True)
 
 
 def at_log(log: Recording, reference: Recording) -> Recording:
