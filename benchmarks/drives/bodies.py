@@ -225,6 +225,26 @@ def at_anchor(rng, duration=300.0, **more):
     return measured(rng, axes_of(yaw, 0 * t, roll), np.zeros((len(t), 3)), **more)
 
 
+def at_sea(rng, period: float, height: float, duration=150.0, **more):
+    """A boat in waves of ``period`` s that lift it by some ``height`` m and sway it by half of
+    that, and under way all the time: it never rests.
+    """
+    t = clock(duration)
+
+    def wave(seconds: float, size: float) -> np.ndarray:
+        """Of a narrow sea: twelve sines within 15 % (1 sigma), of the root mean square ``size``."""
+        frequencies, phases = rng.normal(1.0, 0.15, 12) / seconds, rng.uniform(0, 2 * np.pi, 12)
+        waves = np.sin(2 * np.pi * frequencies * t[:, None] + phases)
+        return size * np.sqrt(2 / 12) * waves.sum(axis=1)
+
+    course = 0.03 * integral(smooth(rng, t, 8.0))[:, 0]
+    roll, pitch = wave(0.75 * period, 0.1), wave(0.9 * period, 0.05)
+    sizes = (0.5 * height, 0.5 * height, height)
+    place = np.column_stack([wave(period, size) for size in sizes])
+    axes = axes_of(course + wave(1.1 * period, 0.02), pitch, roll)
+    return measured(rng, axes, slope(slope(place)), **more)
+
+
 def panned(rng, duration=240.0, **more):
     """A camera's head that pans and tilts, an even turn of 0.3 to 2 deg/s after another, with
     pauses.

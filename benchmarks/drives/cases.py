@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from drives import bodies
@@ -345,6 +346,12 @@ ORDINARY = (
 )
 """Of ``drives.bodies``, whose sensors the filter is told nothing of."""
 
+AT_SEA = tuple(
+    Case(f"boat, {period:g} s, {height:g} m", partial(bodies.at_sea, period=period, height=height))
+    for period, height in ((3.0, 0.15), (8.0, 0.15), (8.0, 0.5), (12.0, 1.0))
+)
+"""The same of boats in waves, which never rest."""
+
 CASES = (
     Case("rest", still),
     Case("turning in place", matched),
@@ -392,5 +399,5 @@ CASES = (
         lambda rng: record(rng, with_stops(rng, 300.0), 300.0),
         (1.0, 4.0),
     ),
-    *(replace(c, default=True) for c in ORDINARY),
+    *(replace(c, default=True) for c in (*ORDINARY, *AT_SEA)),
 )

@@ -1,0 +1,27 @@
+"""A boat in waves, which is never at rest."""
+
+import numpy as np
+from drives.bodies import at_sea
+
+from pyimu.attitude import run
+from pyimu.recording.recording import Recording
+
+
+def test_waves_are_no_bias_of_a_boat_that_never_rested():
+    """A filter that fitted tilt and bias to waves of 8 s was 0.4 to 55 deg off with these seeds, and
+    7 to 20 claimed. They sway it by 0.25 m RMS in either direction: what is level by its forces is
+    1.27 deg off by itself, and by less than twice that beside a gyro.
+    """
+    off = []
+    for seed in range(4):
+        log = at_sea(np.random.default_rng([5, seed]), 8.0, 0.5)
+        found = run(Recording.from_arrays(time=log.time, gyro=log.gyro, accel=log.accel))
+        up, true = (_up(q) for q in (found.q, log.q))
+        off.append(np.degrees(np.sqrt(np.mean(np.sum((up - true) ** 2, axis=1)[1000:]))))
+    assert max(off) < 2 * 1.27, off
+
+
+def _up(q):
+    """The vertical (n, 3) in body axes."""
+    w, x, y, z = q.T
+    return np.column_stack([2 * (x * z - w * y), 2 * (y * z + w * x), w**2 - x**2 - y**2 + z**2])
