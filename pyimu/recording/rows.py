@@ -16,7 +16,7 @@ from pyimu.recording.angles import of_angles
 from pyimu.recording.coarse import COARSE_STAMPS, EvenTimes, even_times
 from pyimu.recording.column_map import BODY, ForeignMap, read_map
 from pyimu.recording.columns import ANGLES, GROUP_OF, GROUPS, column_names, own_name
-from pyimu.recording.counter import BITS, NEARLY, Unwrapped
+from pyimu.recording.counter import NEARLY, Unwrapped, spans
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
@@ -223,7 +223,7 @@ class Rows:
         Raises UserError with the row for a time that is missing or runs backwards, and for a file
         of fewer than three rows.
         """
-        counter = Unwrapped()
+        counter = Unwrapped(self.source.header.seconds)
         for values, share in self._headed(self._converted(counter)):
             time, values = self._ordered(values)
             self.kept += len(time)
@@ -235,7 +235,7 @@ class Rows:
             )
         self._tally.add([*self._raw.findings(), *self.source.reader.at_end(), *self._spread()])
         if counter.count:
-            detail = {"bits": counter.bits}
+            detail = {"after": counter.after}
             self._tally.add([Finding("counter_wrapped", "time", counter.count, detail)])
 
     def _converted(self, counter: Unwrapped) -> Iterator[tuple[Values, float]]:
@@ -319,12 +319,13 @@ class Rows:
         return f"{self.source.header.path}: {self.source.reader.place(int(row))}"
 
     def _wrapped(self, step: float) -> str:
-        """What to add where the time went back by nearly the whole range of a counter."""
-        for bits in BITS:
-            span = 2.0**bits * self.source.header.seconds
-            if NEARLY * span < step <= span:
+        """What to add where the time went back by nearly all that it may count up to."""
+        seconds = self.source.header.seconds
+        for ticks, name in spans(seconds).items():
+            if NEARLY * ticks * seconds < step <= ticks * seconds:
+                what = f"a counter of {name}" if name.endswith("bits") else f"a {name}"
                 return (
-                    f"; a counter of {bits} bits wraps after {span:.9g} s, but here more is "
+                    f"; {what} begins anew after {ticks * seconds:.9g} s, but here more is "
                     "missing: cut the log there"
                 )
         return "; cut the log where its clock was set anew, or sort the rows by time"

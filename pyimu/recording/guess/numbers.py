@@ -173,11 +173,8 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
     """
     largest = float(np.nanmax(np.abs(rate))) if np.isfinite(rate).any() else 0.0
     if force is not None and period is not None:
-        lengths = [max(round(block / period), 2) for block in BLOCKS]
-        found = [(*_turning(rate, force, length, period), length) for length in lengths]
-        slope, correlation, length = max(found, key=lambda each: each[1])
-        if correlation > SURE:
-            slope = _whole_turns(rate, force, length, period, slope)
+        slope = turning_of_gravity(rate, force, period)
+        if slope is not None:
             for unit, one in (("rad/s", 1.0), ("deg/s", np.pi / 180)):
                 if 1 / LIKE < slope / one < LIKE:
                     why = f"gravity turns {slope / one:.2f} times as fast as these say"
@@ -252,6 +249,16 @@ def sensitivities(lsb: float) -> UnitGuess | None:
     return UnitGuess("deg/s", why, 1 / near[0])
 
 
+def turning_of_gravity(rate: np.ndarray, force: np.ndarray, period: float) -> float | None:
+    """How many rad/s one of the rates (n, 3) is by what the forces (n, 3) turn; None where they
+    turn with something else, or not at all.
+    """
+    lengths = [max(round(block / period), 2) for block in BLOCKS]
+    found = [(*_turning(rate, force, length, period), length) for length in lengths]
+    slope, correlation, length = max(found, key=lambda each: each[1])
+    return _whole_turns(rate, force, length, period, slope) if correlation > SURE else None
+
+
 def _turning(
     rate: np.ndarray, force: np.ndarray, length: int, period: float
 ) -> tuple[float, float]:
@@ -284,9 +291,10 @@ def _whole_turns(
     of those of 1 rad between two means it makes it a quarter too large.
 
     The scale k of the rates is sought at which two neighbouring means agree, each over ``length``
-    samples that were turned, by k w, to where the two blocks meet.
+    samples that were turned, by k w, to where the two blocks meet. Where it is none near the slope,
+    as of a log that rests but for a moment, the slope counts.
     """
-    step = 1e-3
+    step, start = 1e-3, slope
     for _ in range(TRIES):
         apart = _apart(rate, force, length, period, slope)
         more = _apart(rate, force, length, period, slope * (1 + step))
@@ -299,7 +307,7 @@ def _whole_turns(
         before, slope = slope, slope - float(change @ apart[kept].ravel()) / power
         if abs(slope - before) < step * abs(before) or not slope > 0:
             break
-    return slope
+    return slope if 1 / LIKE < slope / start < LIKE else start
 
 
 def _apart(

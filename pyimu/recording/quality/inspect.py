@@ -32,6 +32,21 @@ NO_GRAVITY = "no_gravity"
 WEIGHTLESS = 0.08
 """Of the Earth's gravity; the Moon's is 0.165, and a gravity of 1, of a log in g, is 0.102."""
 
+FASTEST = np.radians(2100)
+"""rad/s; the range of most gyros ends at 2000 deg/s, from which a scale factor is off by some
+percent."""
+
+SELDOM = 1e-3
+"""Share of the samples up to which larger rates are spikes."""
+
+STANDS = 0.2
+"""m/s^2; standard deviation over a second of a force that stands still. Gravity turns through 1.0
+at the rate ``ZERO_RATE``."""
+
+ZERO_RATE = np.radians(20)
+"""rad/s; initial tolerance of the output at rest of the worst of the consumer's gyros in
+``pyimu/model/typical.toml``."""
+
 JITTER = 0.01
 """RMS deviation of the sample steps from their median, in periods, above which it is reported."""
 
@@ -41,7 +56,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
 
     ``zeroed``, ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``,
     ``held_samples``, ``spikes``, ``quantization_step`` for each column; ``jitter``,
-    ``gravity_down``, ``force_in_g``, ``no_gravity`` and ``temperature_unit`` for the recording.
+    ``gravity_down``, ``force_in_g``, ``no_gravity``, ``gyro_fast``, ``gyro_at_rest`` and
+    ``temperature_unit`` for the recording.
     """
     names, values = _channels(recording)
     zeroed = _zeroed(recording)
@@ -55,7 +71,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
     force = np.median(quiet, axis=0) if len(quiet) else None
     of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_no_gravity(quiet))
     warmth = _other_temperature(recording)
-    return (*zeroed, *columns, *_spikes(recording), *_jitter(recording), *of_gravity, *warmth)
+    sizes = (*_too_fast(recording), *_turns_at_rest(recording), *of_gravity, *warmth)
+    return (*zeroed, *columns, *_spikes(recording), *_jitter(recording), *sizes)
 
 
 def of_reading(recording: Recording) -> tuple[Finding, ...]:
@@ -163,6 +180,33 @@ def _jitter(recording: Recording) -> Iterator[Finding]:
         yield Finding("jitter", "time", len(step), {"rms": rms, "period": period})
 
 
+def _too_fast(recording: Recording) -> Iterator[Finding]:
+    """Rates beyond the range of most gyros: probably deg/s whose header says rad/s."""
+    if recording.gyro is None:
+        return
+    size = np.nan_to_num(np.abs(recording.gyro)).max(axis=1)
+    fast = int(np.count_nonzero(size > FASTEST))
+    if fast > SELDOM * len(size):
+        yield Finding("gyro_fast", "gyro", fast, {"largest": float(size.max())})
+
+
+def _turns_at_rest(recording: Recording) -> Iterator[Finding]:
+    """Rates about a level axis, larger than any bias, in seconds in which gravity stands still."""
+    if recording.gyro is None or recording.accel is None:
+        return
+    seconds = _whole_seconds(recording, np.hstack([recording.accel, recording.gyro]))
+    force, still = seconds[:, :, :3].mean(axis=1), seconds[:, :, :3].std(axis=1)
+    rate, size = seconds[:, :, 3:].mean(axis=1), np.linalg.norm(force, axis=1)
+    gravity = np.abs(size / STANDARD_GRAVITY - 1) < 0.1
+    at_rest = gravity & (np.linalg.norm(still, axis=1) < STANDS)
+    if not at_rest.any():
+        return
+    level = np.linalg.norm(np.cross(rate, force)[at_rest], axis=1) / size[at_rest]
+    if np.median(level) > ZERO_RATE:
+        detail = {"value": float(np.median(level))}
+        yield Finding("gyro_at_rest", "gyro", int(at_rest.sum()), detail)
+
+
 def _gravity_down(recording: Recording, rest: np.ndarray | None) -> Iterator[Finding]:
     """Gravity on -z at rest: probably a log in forward-right-down axes that nobody declared."""
     if recording.frame_declared or not _is_gravity(rest, STANDARD_GRAVITY):
@@ -222,11 +266,16 @@ def _quietest(recording: Recording) -> np.ndarray:
     """The mean force (k, 3) of each of the quietest seconds, none where no second has all its
     samples.
     """
-    length = max(4, min(round(recording.sample_rate), len(recording) // 10))
-    count = len(recording) // length
-    seconds = recording.accel[: count * length].reshape(count, length, 3)
-    seconds = seconds[np.all(np.isfinite(seconds), axis=(1, 2))]
+    seconds = _whole_seconds(recording, recording.accel)
     if not len(seconds):
         return np.zeros((0, 3))
     spread = seconds.std(axis=1).sum(axis=1)
     return seconds[spread <= np.quantile(spread, 0.1)].mean(axis=1)
+
+
+def _whole_seconds(recording: Recording, values: np.ndarray) -> np.ndarray:
+    """The ``values`` (n, c) of the seconds (k, length, c) that have all their samples."""
+    length = max(4, min(round(recording.sample_rate), len(recording) // 10))
+    count = len(recording) // length
+    seconds = values[: count * length].reshape(count, length, values.shape[1])
+    return seconds[np.all(np.isfinite(seconds), axis=(1, 2))]
