@@ -141,7 +141,7 @@ def _own_map(reader: Reader, foreign: ForeignMap | None, index: int) -> ForeignM
 def _declared(reader: Reader, foreign: ForeignMap) -> Proposal:
     """What a map, a format's definition or the header itself says of the columns."""
     found = Proposal(reader.path, tuple(reader.header))
-    for cell, target in foreign.columns.items():
+    for cell, target in foreign.named(reader.header).items():
         name = own_name(target)
         if name is not None and cell in reader.header:
             unit = target.partition("[")[2].rstrip("] ")

@@ -311,8 +311,8 @@ def test_arrays_without_columns_are_named_with_the_reason(tmp_path, refused):
     "value, says",
     [
         (
-            np.array([(1.0, 2.0)] * 5, dtype=[("t", "O"), ("gx", "O")]),
-            "log (5 structures, save one whose fields are arrays)",
+            np.array([("a", "b")] * 20, dtype=[("t", "O"), ("gx", "O")]),
+            "log (20 structures without numbers, save arrays)",
         ),
         (np.array([np.zeros(3), np.zeros(4)], dtype=object), "log (cells, save arrays)"),
     ],
