@@ -231,12 +231,18 @@ class Rows:
         if self.kept < LEAST_ROWS:
             raise UserError(
                 f"{self.source.header.path}: a recording needs at least {LEAST_ROWS} rows of data, "
-                f"this one has {self.kept}"
+                f"this one has {self.kept}{self._at_one_time()}"
             )
         self._tally.add([*self._raw.findings(), *self.source.reader.at_end(), *self._spread()])
         if counter.count:
             detail = {"after": counter.after}
             self._tally.add([Finding("counter_wrapped", "time", counter.count, detail)])
+
+    def _at_one_time(self) -> str:
+        """What to add where too few rows have a time of their own."""
+        more = self._seen - self.kept
+        same = "have the time of the row before: is it rounded, or another column's?"
+        return f"; {more:,} more {same}" if more > 0 else ""
 
     def _converted(self, counter: Unwrapped) -> Iterator[tuple[Values, float]]:
         """The columns of each batch in units of the package, and the share of the file read."""

@@ -30,6 +30,7 @@ from pyimu.recording.formats.marked import (
 )
 from pyimu.recording.formats.novatel import novatel
 from pyimu.recording.formats.optical import optical
+from pyimu.recording.formats.thousands import without_marks
 from pyimu.recording.formats.unnamed import names_of
 from pyimu.recording.spelling import bare, unit_of
 
@@ -170,12 +171,22 @@ def layout_of(path: Path, topic: str = "") -> Layout:
     if table is not None:
         found = Layout(table.separator, ".", table.names, table.first, rate=table.rate)
         return replace(found, code=code_of(path))
-    found = replace(told_from(head), code=code_of(path))
+    found = replace(_of_table(head), code=code_of(path))
     for row, line in enumerate(head[: found.first - 1], 1):
         line = line.rstrip("\r\n")
         if not is_comment(line) and len(found.cells(line)) > 1 and found.is_open(line):
             raise UserError(f"{path}: row {row}: {UNCLOSED}")
     return found
+
+
+def _of_table(head: Sequence[str]) -> Layout:
+    """The layout of a table, in which thousands may stand apart."""
+    rewrite = without_marks(head)
+    if rewrite is None:
+        return told_from(head)
+    found = told_from([rewrite(line.rstrip("\r\n")) + "\n" for line in head])
+    marked = Marked(found.names, rewrite, "thousands that stand apart", found.clocks)
+    return replace(found, marked=marked)
 
 
 def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:

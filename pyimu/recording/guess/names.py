@@ -40,7 +40,7 @@ TICKS = {"millis": "ms", "micros": "us", "nanos": "ns", "cts": "ms"}
 """Words for times that say their unit, as Arduino's functions are called; ``cts`` is that of a
 camera's film in the tables that are made of GoPro's."""
 
-CLOCKS = ("s", "ms", "us", "ns", "min", "h")
+CLOCKS = ("s", "ms", "us", "ns", "min", "h", "day")
 """Units of times."""
 
 TEMPERATURES = {"temp", "temperature", "celsius", "imutemp"}

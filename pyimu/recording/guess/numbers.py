@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.units import STANDARD_GRAVITY
 
-SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
-"""Units in which clocks count."""
+SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "day": 86400.0}
+"""Units in which clocks count, and the serial dates of spreadsheets."""
 
 USUAL = (8.0, 8000.0)
 """Hz; three decades, within which most inertial sensors are sampled: of units a factor of 1000
@@ -24,6 +24,9 @@ SLOWEST = 0.01
 
 EPOCH = (946684800.0, 4102444800.0)
 """s since 1970 of the years 2000 and 2100: so large a time is a date, and tells its unit."""
+
+SERIAL = 25569.0
+"""Days from the first of spreadsheets, 1899-12-30, to 1970."""
 
 NEAR_GRAVITY = 0.1
 """By how much the size of gravity may be off where a sensor rests."""
@@ -97,8 +100,11 @@ def time_unit(time: np.ndarray) -> UnitGuess:
     median, first = float(np.median(step)), float(known[0])
     rates = {unit: 1 / (median * size) for unit, size in SECONDS.items()}
     for unit, size in SECONDS.items():
-        if EPOCH[0] < first * size < EPOCH[1] and 1e-3 <= rates[unit] <= 1e6:
-            year = int(1970 + first * size / 31556952)
+        since, slowest = first * size, 1e-3
+        if unit == "day":
+            since, slowest = (first - SERIAL) * size, POSSIBLE[0]
+        if EPOCH[0] < since < EPOCH[1] and slowest <= rates[unit] <= 1e6:
+            year = int(1970 + since / 31556952)
             return UnitGuess(unit, f"a date of {year}, at {rates[unit]:.4g} Hz")
     if np.all(step == 1):
         return UnitGuess(None, "whole numbers one apart: a counter of samples, or times")
