@@ -1,10 +1,11 @@
 """Dates and times of day in words of digits: ``2024-02-01T12:00:00.010Z``, ``12:00:00,010``.
 
 A date that ends with its year may have its day first or its month: of ``2/1/2024 12:00:00`` the
-time of day alone counts, and of ``Wed Dec 22 21:09:46 2021``. Phones write milliseconds behind a
+time of day alone counts, and of ``Wed Dec 22 21:09:46 2021`` and ``01-Feb-2024 12:00:00.010``.
+Phones write milliseconds behind a
 third colon, ``12:00:00:010``, spreadsheets AM or PM behind the time, and pandas' spans the days
 before it, ``0 days 00:00:00.010``. Spreadsheets show times with parts of a second without their
-hours, ``59:59.9``.
+hours, ``59:59.9``, and MATLAB spans with their unit, ``0.01 sec``.
 
 And those that Parquet files and data frames hold as such, with spans of time.
 """
@@ -23,10 +24,11 @@ _MONTH = "(?:Jan|Feb|Mar|Apr|May|Jun|Jul|Aug|Sep|Oct|Nov|Dec)"
 _PATTERN = (
     r"^\s*(?:(?P<year>\d{4})[-/](?P<month>\d{1,2})[-/](?P<day>\d{1,2})[T ]\s*"
     r"|\d{1,2}[-/.]\d{1,2}[-/.](?:\d{4}|\d{2})[T ]\s*"
-    rf"|{_WEEKDAY} {_MONTH} +\d{{1,2}} "
+    rf"|{_WEEKDAY} {_MONTH} +\d{{1,2}} |\d{{1,2}}-{_MONTH}-\d{{4}} "
     r"|(?P<days>\d{1,5}) days? )?"
     r"(?:(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2})"
     r"(?:[.,](?P<part>\d{1,9})\d*|:(?P<thousandths>\d{3}))?"
+    r"|(?P<span>\d+(?:\.\d+)?(?:[eE][-+]?\d+)?) (?P<unit>sec|min|hr)"
     r"|(?P<minutes>\d{1,3}):(?P<of_minute>\d{2})[.,](?P<of_second>\d{1,9}))"
     r"(?:\s*(?P<noon>[AaPp])\.?[Mm]\.?)?"
     r"\s*(?:Z|UTC|(?P<zone>[-+]\d{2}:?\d{2})| \d{4})?\s*$"
@@ -65,9 +67,8 @@ class ClockTimes:
             *(pc.fill_null(field[name], "") for name in ("part", "thousandths", "of_second")), ""
         )
         digits = pc.utf8_rpad(parts, width=9, padding="0")
-        seconds = (
-            hour * HOUR + (minute + minutes) * 60 + second + of_minute - _zone(field["zone"], known)
-        )
+        seconds = hour * HOUR + (minute + minutes) * 60 + second + of_minute
+        seconds = seconds - _zone(field["zone"], known) + _spans(field["span"], field["unit"])
         days = _days(field, known) + _whole(field["days"], known)
         if known.any() and self._first_day is None:
             at = int(np.flatnonzero(known)[0])
@@ -148,6 +149,18 @@ def _zone(texts: pa.Array, known: np.ndarray) -> np.ndarray:
     plain = pc.if_else(pc.equal(plain, ""), "+0000", plain)
     hhmm = _whole(pc.replace_substring(plain, "+", ""), known)
     return np.sign(hhmm) * (np.abs(hhmm) // 100 * 3600 + np.abs(hhmm) % 100 * 60)
+
+
+SPANS = {"sec": 1.0, "min": 60.0, "hr": 3600.0}
+"""s in the units behind MATLAB's spans of time."""
+
+
+def _spans(numbers: pa.Array, units: pa.Array) -> np.ndarray:
+    """s (n,) of spans of time, 0 where there is none."""
+    values = pc.if_else(pc.equal(filled := pc.fill_null(numbers, ""), ""), "0", filled)
+    seconds = values.cast(pa.float64()).to_numpy(zero_copy_only=False)
+    size = [SPANS.get(unit, 0.0) for unit in pc.fill_null(units, "").to_pylist()]
+    return seconds * np.array(size)
 
 
 def _days(field: dict[str, pa.Array], known: np.ndarray) -> np.ndarray:

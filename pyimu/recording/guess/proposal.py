@@ -14,6 +14,7 @@ from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.endings import fits
 from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.names import (
+    COUNTERS,
     TRUTHS,
     Name,
     angles,
@@ -201,6 +202,7 @@ def _time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None)
         candidates,
         key=lambda c: (
             c[2].unit is None,
+            bool(COUNTERS & set(names[c[0]].words)),
             _unevenness(c[1]),
             "stamp" not in names[c[0]].words,
             "date" not in c[2].why,
