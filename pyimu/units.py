@@ -169,6 +169,10 @@ ALIASES = {
 """Names that data sheets use, in those of the table; each is one factor: LSB/dps = LSB/(deg/s)."""
 
 _SIGNS = {
+    "samples/second": "Hz",
+    "samples/sec": "Hz",
+    "samples/s": "Hz",
+    "Samples/s": "Hz",
     "° C": "degC",
     "º C": "degC",
     "deg C": "degC",

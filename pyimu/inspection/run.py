@@ -130,7 +130,7 @@ def _own_map(reader: Reader, foreign: ForeignMap | None, index: int) -> ForeignM
     """The columns that are declared for the file of number ``index``, None where none are."""
     if foreign is not None and foreign.columns:
         return foreign if index == 0 else (dict(foreign.files).get(reader.path.name))
-    known = recognised(reader)
+    known = recognised(reader, rate=None if foreign is None else foreign.rate)
     if known is not None:
         return known[1]
     if is_own(reader.header):

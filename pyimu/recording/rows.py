@@ -102,7 +102,7 @@ class Source:
         is_known = False
         reader, foreign = with_made_columns(reader, foreign)
         if not foreign.columns:
-            known = recognised(reader, wanted)
+            known = recognised(reader, wanted, foreign.rate)
             if known is not None:
                 foreign = merged(known[1], foreign, (*known[1].files, *foreign.files))
                 findings, is_known = tuple(said(known, reader.header)), True

@@ -157,3 +157,22 @@ def test_labview_without_a_column_of_times_has_their_distance(vectors, tmp_path)
     head += ["X_Value\tGyro_X\tGyro_Y\tGyro_Z\tAcc_X\tAcc_Y\tAcc_Z\tComment"]
     columns = [[""] * N, *vectors[0].T, *vectors[1].T]
     same(read_recording(written(tmp_path / "log.lvm", head, columns, "\t")), *vectors)
+
+
+def test_of_a_table_that_states_its_units_a_map_may_say_the_rate_alone(vectors, tmp_path):
+    names = [f"{v}{a}" for v in ("Accel", "Gyro") for a in "XYZ"]
+    head = ",".join(f"{n}({'m/s^2' if 'A' in n else 'rad/s'})" for n in names)
+    path = written(tmp_path / "log.csv", [head], [*vectors[1].T, *vectors[0].T])
+    (tmp_path / "map.toml").write_text('sample_rate = {value = 100, unit = "samples/s"}\n')
+    same(read_recording(path, tmp_path / "map.toml"), *vectors)
+    found = inspect(path, tmp_path / "map.toml")
+    assert found.readable and found.column_map.count("gyro_") == 3
+
+
+def test_a_vector_called_by_its_axes_and_value_is_told_of(vectors, tmp_path):
+    head = ["time,X_value,Y_value,Z_value"]
+    path = written(tmp_path / "1.csv", head, [TIME, *vectors[0].T])
+    (found,) = inspect(path).proposals
+    assert any(
+        "X_value, Y_value, Z_value are left out: they may be the gyro" in n for n in found.notes
+    )

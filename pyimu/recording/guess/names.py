@@ -77,6 +77,9 @@ NO_SAMPLES = DERIVED | TRUTHS
 
 RAW = {"raw"}
 
+SAID_OF_AXES = {"axis", "axes", "value", "values"}
+"""Words beside an axis that say nothing."""
+
 BEHIND = {"cal", "calibrated", "raw"}
 """Words that may stand behind the axis."""
 
@@ -197,7 +200,7 @@ def _axis(words: list[str]) -> tuple[str, list[str]]:
 
     A number behind the axis is a sensor's: ``ACC.X 1``.
     """
-    words = [word for word in words if word not in ("axis", "axes")] if len(words) > 1 else words
+    words = [word for word in words if word not in SAID_OF_AXES] if len(words) > 1 else words
     if len(words) > 1 and words[-1] in BEHIND:
         words = [words[-1], *words[:-1]]
     if len(words) > 2 and words[-1].isdigit() and words[-2] in ("w", "x", "y", "z"):
