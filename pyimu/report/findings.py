@@ -90,6 +90,8 @@ def _numbers(column: str, details: Mapping[str, Any]) -> list[str]:
             text = quantity(float(value), sample)
         elif name in ANGLES:
             text = quantity(float(value), "rad")
+        elif name == "white_noise":
+            text = quantity(float(value), "rad/sqrt(s)")
         elif name == "share":
             text = quantity(float(value), "1")
         elif name.endswith(RATES):

@@ -35,6 +35,8 @@ MEANING = {
     "in counts that have no zero?",
     "gyro_fast": "beyond 2,000 deg/s, where the range of most gyros ends: are the numbers in deg/s "
     "where rad/s is stated?",
+    "gyro_noisy": "more white noise at rest than the worst gyros have: are the numbers in deg/s "
+    "where rad/s is stated?",
     "gyro_unit": "the rates are too large or too small by the factor of another unit: deg/s where "
     "rad/s is stated, or the other way round",
     "heading_against_field": "headings and magnetometer differ by this angle; both are used",

@@ -96,6 +96,17 @@ def test_a_rate_while_gravity_stands_still(axis, said):
     assert "gyro_at_rest" not in kinds(replace(log, gyro=log.gyro * [0.3, 0.3, 1]))
 
 
+@pytest.mark.parametrize("density", [0.005, 0.1])
+def test_white_noise_that_no_gyro_has(density):
+    """Of the noisiest gyro of the built-in parts and of an MPU-6050: deg/s/sqrt(Hz), one-sided."""
+    n, rng = 3000, np.random.default_rng(4)
+    sigma = np.radians(density) * np.sqrt(0.5 / H)
+    gyro, accel = rng.normal(0, sigma, (n, 3)), [0, 0, 9.81] + rng.normal(0, 0.02, (n, 3))
+    right = Recording.from_arrays(time=H * np.arange(n), gyro=gyro, accel=accel)
+    assert "gyro_noisy" not in kinds(right)
+    assert "gyro_noisy" in kinds(replace(right, gyro=DEGREE * gyro))
+
+
 def written(path, unit, times):
     head = f"time [{unit}]," + ",".join(f"gyro_{a} [rad/s]" for a in "xyz")
     rates = np.random.default_rng(3).normal(0, 0.01, (len(times), 3))

@@ -47,6 +47,10 @@ ZERO_RATE = np.radians(20)
 """rad/s; initial tolerance of the output at rest of the worst of the consumer's gyros in
 ``pyimu/model/typical.toml``."""
 
+NOISIEST = np.radians(0.15) / np.sqrt(2)
+"""rad/sqrt(s); half as much again as the noisiest gyro of the built-in parts has, an ADXRS300 of
+0.1 deg/s/sqrt(Hz) one-sided."""
+
 JITTER = 0.01
 """RMS deviation of the sample steps from their median, in periods, above which it is reported."""
 
@@ -56,8 +60,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
 
     ``zeroed``, ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``,
     ``held_samples``, ``spikes``, ``quantization_step`` for each column; ``jitter``,
-    ``gravity_down``, ``force_in_g``, ``no_gravity``, ``gyro_fast``, ``gyro_at_rest`` and
-    ``temperature_unit`` for the recording.
+    ``gravity_down``, ``force_in_g``, ``no_gravity``, ``gyro_fast``, ``gyro_at_rest``,
+    ``gyro_noisy`` and ``temperature_unit`` for the recording.
     """
     names, values = _channels(recording)
     zeroed = _zeroed(recording)
@@ -71,7 +75,7 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
     force = np.median(quiet, axis=0) if len(quiet) else None
     of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_no_gravity(quiet))
     warmth = _other_temperature(recording)
-    sizes = (*_too_fast(recording), *_turns_at_rest(recording), *of_gravity, *warmth)
+    sizes = (*_too_fast(recording), *_at_rest(recording), *of_gravity, *warmth)
     return (*zeroed, *columns, *_spikes(recording), *_jitter(recording), *sizes)
 
 
@@ -190,21 +194,27 @@ def _too_fast(recording: Recording) -> Iterator[Finding]:
         yield Finding("gyro_fast", "gyro", fast, {"largest": float(size.max())})
 
 
-def _turns_at_rest(recording: Recording) -> Iterator[Finding]:
-    """Rates about a level axis, larger than any bias, in seconds in which gravity stands still."""
+def _at_rest(recording: Recording) -> Iterator[Finding]:
+    """What a gyro shows in seconds in which gravity stands still, and none does: a rate about a
+    level axis that is larger than any bias, and more noise.
+    """
     if recording.gyro is None or recording.accel is None:
         return
     seconds = _whole_seconds(recording, np.hstack([recording.accel, recording.gyro]))
     force, still = seconds[:, :, :3].mean(axis=1), seconds[:, :, :3].std(axis=1)
-    rate, size = seconds[:, :, 3:].mean(axis=1), np.linalg.norm(force, axis=1)
+    size = np.linalg.norm(force, axis=1)
     gravity = np.abs(size / STANDARD_GRAVITY - 1) < 0.1
     at_rest = gravity & (np.linalg.norm(still, axis=1) < STANDS)
     if not at_rest.any():
         return
-    level = np.linalg.norm(np.cross(rate, force)[at_rest], axis=1) / size[at_rest]
+    rate, count = seconds[at_rest, :, 3:], int(at_rest.sum())
+    level = np.linalg.norm(np.cross(rate.mean(axis=1), force[at_rest]), axis=1) / size[at_rest]
     if np.median(level) > ZERO_RATE:
-        detail = {"value": float(np.median(level))}
-        yield Finding("gyro_at_rest", "gyro", int(at_rest.sum()), detail)
+        yield Finding("gyro_at_rest", "gyro", count, {"value": float(np.median(level))})
+    differences = np.diff(rate, axis=1).std(axis=1) / np.sqrt(2)
+    n = float(np.median(differences.max(axis=1)) * np.sqrt(recording.sample_period))
+    if n > NOISIEST:
+        yield Finding("gyro_noisy", "gyro", count, {"white_noise": n})
 
 
 def _gravity_down(recording: Recording, rest: np.ndarray | None) -> Iterator[Finding]:
