@@ -176,3 +176,35 @@ def test_a_vector_called_by_its_axes_and_value_is_told_of(vectors, tmp_path):
     assert any(
         "X_value, Y_value, Z_value are left out: they may be the gyro" in n for n in found.notes
     )
+
+
+@pytest.mark.parametrize(
+    "names", ["Unix Time,Microseconds", "tv_sec,tv_usec", "stamp.sec,stamp.usec"]
+)
+def test_seconds_and_microseconds_are_one_time(names, vectors, tmp_path):
+    """As Advanced Navigation's tables have them, and what gettimeofday gives."""
+    micros = (1e6 * TIME).round().astype(int) + 1_700_000_000_500_000
+    head = [
+        names + "," + ",".join(f"{v} {a}" for v in ("Accelerometer", "Gyroscope") for a in "XYZ")
+    ]
+    columns = [micros // 10**6, micros % 10**6, *vectors[1].T, *vectors[0].T]
+    same(inspect(written(tmp_path / "log.csv", head, columns)).recording, *vectors)
+
+
+def test_the_time_between_rows_is_none_and_axes_stand_before_words(vectors, tmp_path):
+    """As ADI's evaluation software calls its outputs, with a thermometer in counts."""
+    names = [f"{a}{v}_OUT" for v in ("GYRO", "ACCL") for a in "XYZ"]
+    head = [",".join(["Delta Time (ms)", *names, "TEMP_OUT"])]
+    columns = [np.full(N, 10.0), *vectors[0].T, *vectors[1].T, np.full(N, 250)]
+    path = written(tmp_path / "log.csv", head, columns)
+    (tmp_path / "map.toml").write_text('sample_rate = {value = 100, unit = "Hz"}\n')
+    found = inspect(path, tmp_path / "map.toml")
+    same(found.recording, *vectors)
+    assert found.recording.temperature is None
+
+
+def test_another_code_is_to_be_saved_as_utf8(tmp_path):
+    text = "時刻,角速度X(deg/s),角速度Y(deg/s),角速度Z(deg/s)\n0,1,2,3\n"
+    (tmp_path / "log.csv").write_bytes(text.encode("shift_jis"))
+    with pytest.raises(UserError, match="save text in another code as UTF-8"):
+        read_recording(tmp_path / "log.csv")

@@ -108,7 +108,10 @@ def lines(path: Path) -> Iterator[str]:
                 )
             text = _decoded(line, number == 1)
             if text is None:
-                raise UserError(f"{path}: is not text in {UTF_8}, {UTF_16} or {WESTERN}")
+                raise UserError(
+                    f"{path}: is not text in {UTF_8}, {UTF_16}, {WESTERN} or {CHINESE}; save text "
+                    f"in another code as {UTF_8}"
+                )
             yield text
 
 

@@ -43,6 +43,9 @@ TICKS = {"millis": "ms", "micros": "us", "nanos": "ns", "cts": "ms"}
 """Words for times that say their unit, as Arduino's functions are called; ``cts`` is that of a
 camera's film in the tables that are made of GoPro's."""
 
+STEPS = {"delta", "diff", "interval"}
+"""Words beside those of times for the time from row to row."""
+
 COUNTERS = {"tick", "ticks", "counter", "count"}
 """Words beside those of times for one that counts in a unit of its own, such as DJI's
 ``Clock:Tick#``."""
@@ -119,8 +122,11 @@ class Name:
 
     @property
     def is_time(self) -> bool:
-        """Whether it is called a time, and is in no unit that is none of times: ``T(°)``."""
-        if self.axis or (self.unit is not None and self.clock is None):
+        """Whether it is called a time, none between rows, and is in no unit that is none of times:
+        ``T(°)``.
+        """
+        other = self.unit is not None and self.clock is None
+        if self.axis or other or set(self.words) & STEPS:
             return False
         return bool(set(self.words) & (TIMES | MORE_TIMES | set(TICKS)))
 
@@ -219,9 +225,10 @@ def _axis(words: list[str]) -> tuple[str, list[str]]:
             match = _AXIS_FIRST.fullmatch("".join(words[-count:]))
             if match:
                 return match[1], [*words[:-count], match[2]]
-        match = _AXIS_FIRST.fullmatch("".join(words[:2]))
-        if match and len(words) > 2:
-            return match[1], [match[2], *words[2:]]
+        for count in (1, 2):
+            match = _AXIS_FIRST.fullmatch("".join(words[:count]))
+            if match and len(words) > count:
+                return match[1], [match[2], *words[count:]]
     return "", words
 
 

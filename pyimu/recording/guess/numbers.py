@@ -120,12 +120,13 @@ def time_unit(time: np.ndarray) -> UnitGuess:
 
 def warmth_unit(warmth: np.ndarray) -> UnitGuess:
     """The unit of temperatures (n,) of electronics, degC or K, of which ``WARM`` and ``WARM_K``
-    have nothing in common; whole numbers may be counts.
+    have nothing in common; whole numbers may be counts, and are in degC else.
     """
     known = warmth[np.isfinite(warmth)]
+    whole = bool(np.all(known == np.rint(known)))
     if len(known) and not counts(known):
         for unit, (least, most) in (("degC", WARM), ("K", WARM_K)):
-            if least < known.min() and known.max() < most:
+            if least < known.min() and known.max() < most and not (whole and unit == "K"):
                 return UnitGuess(unit, f"they are {known.min():.4g} to {known.max():.4g}")
     return UnitGuess(None, "degC or K?")
 
