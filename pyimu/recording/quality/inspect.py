@@ -20,6 +20,7 @@ from pyimu.recording.quality.stuck import LEAST_RUN, held_findings, stuck_findin
 from pyimu.recording.quality.wraps import wrap_findings
 from pyimu.recording.quality.zeroed import zeroed_findings
 from pyimu.recording.recording import Recording
+from pyimu.recording.turning import drawn
 from pyimu.units import STANDARD_GRAVITY, ZERO_CELSIUS
 
 WORKS = (-65.0, 175.0)
@@ -46,6 +47,9 @@ at the rate ``ZERO_RATE``."""
 ZERO_RATE = np.radians(20)
 """rad/s; initial tolerance of the output at rest of the worst of the consumer's gyros in
 ``pyimu/model/typical.toml``."""
+
+MOST_SECONDS = 200
+"""Seconds that are looked at for what a gyro shows at rest."""
 
 NOISIEST = np.radians(0.15) / np.sqrt(2)
 """rad/sqrt(s); half as much again as the noisiest gyro of the built-in parts has, an ADXRS300 of
@@ -188,10 +192,10 @@ def _too_fast(recording: Recording) -> Iterator[Finding]:
     """Rates beyond the range of most gyros: probably deg/s whose header says rad/s."""
     if recording.gyro is None:
         return
-    size = np.nan_to_num(np.abs(recording.gyro)).max(axis=1)
-    fast = int(np.count_nonzero(size > FASTEST))
+    size = np.abs(recording.gyro)
+    fast = int(np.count_nonzero((size > FASTEST).any(axis=1)))
     if fast > SELDOM * len(size):
-        yield Finding("gyro_fast", "gyro", fast, {"largest": float(size.max())})
+        yield Finding("gyro_fast", "gyro", fast, {"largest": float(np.nanmax(size))})
 
 
 def _at_rest(recording: Recording) -> Iterator[Finding]:
@@ -200,7 +204,7 @@ def _at_rest(recording: Recording) -> Iterator[Finding]:
     """
     if recording.gyro is None or recording.accel is None:
         return
-    seconds = _whole_seconds(recording, np.hstack([recording.accel, recording.gyro]))
+    seconds = _whole_seconds(recording, recording.accel, recording.gyro, most=MOST_SECONDS)
     force, still = seconds[:, :, :3].mean(axis=1), seconds[:, :, :3].std(axis=1)
     size = np.linalg.norm(force, axis=1)
     gravity = np.abs(size / STANDARD_GRAVITY - 1) < 0.1
@@ -283,9 +287,15 @@ def _quietest(recording: Recording) -> np.ndarray:
     return seconds[spread <= np.quantile(spread, 0.1)].mean(axis=1)
 
 
-def _whole_seconds(recording: Recording, values: np.ndarray) -> np.ndarray:
-    """The ``values`` (n, c) of the seconds (k, length, c) that have all their samples."""
+def _whole_seconds(
+    recording: Recording, *groups: np.ndarray, most: int | None = None
+) -> np.ndarray:
+    """The ``groups`` (n, 3) side by side in the seconds (k, length, c) that have all their samples,
+    of at ``most`` so many, evenly over the log.
+    """
     length = max(4, min(round(recording.sample_rate), len(recording) // 10))
     count = len(recording) // length
-    seconds = values[: count * length].reshape(count, length, values.shape[1])
+    picked = slice(None) if most is None else drawn(count, most)
+    parts = [v[: count * length].reshape(count, length, v.shape[1])[picked] for v in groups]
+    seconds = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=2)
     return seconds[np.all(np.isfinite(seconds), axis=(1, 2))]
