@@ -10,6 +10,7 @@ import pytest
 
 from pyimu import inspect, read_recording
 from pyimu.errors import UserError
+from pyimu.recording.guess.numbers import force_unit
 from pyimu.units import STANDARD_GRAVITY
 
 N = 2000
@@ -208,3 +209,12 @@ def test_another_code_is_to_be_saved_as_utf8(tmp_path):
     (tmp_path / "log.csv").write_bytes(text.encode("shift_jis"))
     with pytest.raises(UserError, match="save text in another code as UTF-8"):
         read_recording(tmp_path / "log.csv")
+
+
+@pytest.mark.parametrize("middle, told", [(32768, None), (0, "g")])
+def test_counts_without_a_sign_are_no_forces_yet(middle, told, vectors):
+    """Zero is in the middle of a converter's numbers, as in OpenSignals' files."""
+    counts = np.rint(8192 * vectors[1] / STANDARD_GRAVITY) + middle
+    found = force_unit(counts)
+    assert found.unit == told
+    assert ("whole numbers about 32768" in found.why) == (told is None)

@@ -34,6 +34,9 @@ NEAR_GRAVITY = 0.1
 LIKE = 2.0
 """A slope of the gravity's turning on the rate is that of a unit to this factor."""
 
+LEAST_MIDDLE = 512.0
+"""The middle of the numbers of a converter of ten bits."""
+
 SURE = 0.4
 """Least correlation of the gravity's turning with what the rate makes of it. Chosen on BROAD 02, 07
 and an MPU-9150 turned by hand; of a car, a pendulum and a board waved by hand it then gave the
@@ -142,6 +145,10 @@ def force_unit(force: np.ndarray) -> UnitGuess:
     size = resting_size(force)
     if size is None:
         return UnitGuess(None, "no quiet part of the log shows gravity")
+    middle = _middle(force)
+    if middle is not None:
+        why = f"whole numbers about {middle:.0f}, as counts without a sign: [scale] takes an offset"
+        return UnitGuess(None, why)
     for unit, one in (("m/s^2", STANDARD_GRAVITY), ("g", 1.0), ("mg", 1000.0)):
         if abs(size / one - 1) < NEAR_GRAVITY:
             if unit == "mg" and _is_power(size) and counts(force.ravel()):
@@ -153,6 +160,19 @@ def force_unit(force: np.ndarray) -> UnitGuess:
             return UnitGuess("g", f"gravity is {size:.5g} counts, {whole:.0f} a g", 1 / whole)
         return UnitGuess(None, f"gravity is {size:.5g} counts: see the data sheet for LSB/g")
     return UnitGuess(None, f"gravity is {size:.4g}, in no usual unit (does the log hold it?)")
+
+
+def _middle(force: np.ndarray) -> float | None:
+    """The power of two about which two axes or more lie and none has a sign, as counts (n, 3) of a
+    converter have that begin at zero; None of any other numbers.
+    """
+    if not counts(force.ravel()) or not np.nanmin(force) > 0:
+        return None
+    middles = np.nanmedian(force, axis=0)
+    powers = 2.0 ** np.rint(np.log2(middles))
+    near = powers[np.abs(middles / powers - 1) < NEAR_GRAVITY]
+    alike = [p for p in near if np.count_nonzero(near == p) > 1 and p >= LEAST_MIDDLE]
+    return float(alike[0]) if alike else None
 
 
 def _is_power(size: float) -> bool:
