@@ -187,6 +187,7 @@ def _of_no_accelerometer(recording: Recording) -> np.ndarray:
         whole[np.all(np.abs(recording.gyro) <= ABSURD, axis=1)] = 1
         if getattr(recording, "heading_std", None) is not None:
             whole[~(recording.heading_std > 0)] = 0
+        whole[[start for start, _ in recording.segments[1:]]] = 0  # samples are missing before it
     return whole
 
 

@@ -232,3 +232,6 @@ def test_a_log_without_accelerometer_says_so_once_and_of_the_gyro_what_is_missin
     assert np.flatnonzero(found.status & 1).tolist() == list(range(400, 600))
     assert "no accelerometer (accel_x, accel_y, accel_z)" in found.report()
     assert not np.any(run(log, part()).status & 1)
+    keep = np.r_[0:300, 500:1000]
+    cut = Recording.from_arrays(time=log.time[keep], gyro=log.gyro[keep])
+    assert np.flatnonzero(run(cut, part()).status & 1).tolist() == [300]
