@@ -155,7 +155,7 @@ def test_fahrenheit(columns, tmp_path):
         ("log.csv.xz", b"", "unpack it"),
         ("log.npy", b"", "make a CSV or Parquet of it"),
         ("imu.yaml", b"", "rostopic echo -p"),
-        ("log.lvm", b"", "rename text to .txt"),
+        ("log.abc", b"", "rename text to .txt"),
         ("log.csv", b"", "log.csv: is empty"),
         ("log.csv", b"\n \n", "log.csv: is empty"),
         ("log.csv", f"{HEAD}\r0,0,0,0\r1,0,0,0\r".encode(), "a carriage return alone"),

@@ -57,7 +57,7 @@ def _labview(rows: Sequence[str]) -> Sections | None:
         names[k:] = [f"{names[k]} [{unit}]", *names[k + 1 :]] if unit_of(unit) else names[k:]
     timed = said.get("X_Columns", ["One"])[0] != "No"
     if timed and set(said.get("X_Dimension", ["Time"])) == {"Time"}:
-        names[0] = f"time {names[0]} [s]"
+        names[0] = "Time [s]"
     steps = {step.replace(",", ".") for step in said.get("Delta_X", ())}
     rate = None if timed or len(steps) != 1 else _rate(steps.pop())
     return Sections(separator, decimal, tuple(names), ends[-1] + 3, rate)
