@@ -76,6 +76,7 @@ _ATOMS: dict[str, tuple[float, dict[str, int]]] = {
     "ns": (1e-9, {"s": 1}),
     "min": (60.0, {"s": 1}),
     "h": (3600.0, {"s": 1}),
+    "day": (86400.0, {"s": 1}),
     "Hz": (1.0, {"s": -1}),
     "kHz": (1e3, {"s": -1}),
     "m": (1.0, {"m": 1}),
@@ -152,6 +153,7 @@ ALIASES = {
     "volts": "V",
     "hour": "h",
     "hours": "h",
+    "days": "day",
     "Gauss": "gauss",
     "mGauss": "mgauss",
     "milligauss": "mgauss",
@@ -167,6 +169,10 @@ ALIASES = {
 """Names that data sheets use, in those of the table; each is one factor: LSB/dps = LSB/(deg/s)."""
 
 _SIGNS = {
+    "samples/second": "Hz",
+    "samples/sec": "Hz",
+    "samples/s": "Hz",
+    "Samples/s": "Hz",
     "° C": "degC",
     "º C": "degC",
     "deg C": "degC",

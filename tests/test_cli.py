@@ -782,3 +782,11 @@ def test_several_files_for_one_log_are_told_the_map(pyimu, tmp_path):
     assert (code, out) == (2, "") and err.count("\n") == 1
     assert "pyimu inspect FILE FILE --write-map map.toml" in err and "--columns" in err
     assert "inspect" not in pyimu("attitude", "Gyroscope.csv", "nothing")[2]
+
+
+def test_an_option_without_its_value_says_what_it_is_for(pyimu):
+    code, out, err = pyimu("parts", "--new")
+    assert (code, out) == (2, "") and err.count("\n") == 1
+    assert (
+        "Option '--new' requires an argument. Write pyimu parts ... --new and its value: Wri" in err
+    )

@@ -27,7 +27,7 @@ from pyimu.attitude.filter.stillness import SWAY_TIME
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
 from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.ukf import recorded_ukf
-from pyimu.attitude.filter.variables import LEAST_K, USUAL
+from pyimu.attitude.filter.variables import ABSURD, LEAST_K, USUAL
 from pyimu.attitude.filters import OF_LOGS, OWN, Settings, chosen
 from pyimu.attitude.heading_against_field import field_against_headings
 from pyimu.attitude.heading_lag import late_finding, timed
@@ -157,6 +157,7 @@ def run(
     named = {n: v for n, v in values.items() if n in has} | given
     p = with_settings(block, named, "the attitude filter")
     outputs = _estimated(block, recording, known, p, smooth, heard)
+    outputs["status"] &= ~_of_no_accelerometer(recording)
     outputs["status"][log.between] |= 1
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
     if field.used and getattr(recording, "heading", None) is not None:
@@ -178,6 +179,17 @@ def run(
         of_heading=of_heading,
         magnetometer=field.in_world(world),
     )
+
+
+def _of_no_accelerometer(recording: Recording) -> np.ndarray:
+    """The bits (n,) of the status that say no more than that the log has no accelerometer."""
+    whole = np.zeros(len(recording), dtype=np.uint16)
+    if recording.accel is None:
+        whole[np.all(np.abs(recording.gyro) <= ABSURD, axis=1)] = 1
+        if getattr(recording, "heading_std", None) is not None:
+            whole[~(recording.heading_std > 0)] = 0
+        whole[[start for start, _ in recording.segments[1:]]] = 0  # samples are missing before it
+    return whole
 
 
 def _unaided(

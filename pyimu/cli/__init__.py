@@ -83,12 +83,23 @@ def main() -> None:
         elif hasattr(error, "format_message"):
             command = getattr(getattr(error, "ctx", None), "command_path", None) or "pyimu"
             said = error.format_message()
+            said += _with_argument(said)
             code = _refuse(f"{said} ({command} --help shows what is possible){_as_one_log(said)}")
         else:
             code = _refuse(*said_of(error))
     ignore_at_exit()
     gc.freeze()  # else the interpreter, as it ends, looks through everything three times more
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _with_argument(said: str) -> str:
+    """What an option is for that stands at the end without its value, else nothing."""
+    asked = re.match(r"Option '(\S+)' requires an argument", said)
+    command = getattr(typer.main.get_command(app), "commands", {}).get(" ".join(sys.argv[1:2]))
+    if asked is None or command is None:
+        return ""
+    text = next((p.help for p in command.params if asked[1] in p.opts), None)
+    return f" Write pyimu {command.name} ... {asked[1]} and its value: {text}" if text else ""
 
 
 def _as_one_log(said: str) -> str:

@@ -130,7 +130,7 @@ def _own_map(reader: Reader, foreign: ForeignMap | None, index: int) -> ForeignM
     """The columns that are declared for the file of number ``index``, None where none are."""
     if foreign is not None and foreign.columns:
         return foreign if index == 0 else (dict(foreign.files).get(reader.path.name))
-    known = recognised(reader)
+    known = recognised(reader, rate=None if foreign is None else foreign.rate)
     if known is not None:
         return known[1]
     if is_own(reader.header):
@@ -141,7 +141,7 @@ def _own_map(reader: Reader, foreign: ForeignMap | None, index: int) -> ForeignM
 def _declared(reader: Reader, foreign: ForeignMap) -> Proposal:
     """What a map, a format's definition or the header itself says of the columns."""
     found = Proposal(reader.path, tuple(reader.header))
-    for cell, target in foreign.columns.items():
+    for cell, target in foreign.named(reader.header).items():
         name = own_name(target)
         if name is not None and cell in reader.header:
             unit = target.partition("[")[2].rstrip("] ")

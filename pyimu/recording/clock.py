@@ -46,6 +46,10 @@ FEW = 16
 RATES = (1e-3, 1e6)
 """Hz; no inertial sensor is sampled more slowly or faster: such a rate is one of a wrong unit."""
 
+LIKELY = (0.99, 10100.0)
+"""Hz; inertial sensors are seldom sampled more slowly than once a second, or faster than 10 kHz: a
+unit of the times that is wrong by a thousand brings 100 Hz out of this range."""
+
 LEAST_ROUNDED = 32
 """So many steps of the rarer length tell rounded times from lost samples."""
 
@@ -151,6 +155,15 @@ def segments(gaps: np.ndarray, count: int) -> list[tuple[int, int]]:
     return list(pairwise(edges))
 
 
+def unlikely_rate(rate: float) -> list[Finding]:
+    """That a sample rate [Hz] is outside of ``LIKELY``, and what it is by the next unit."""
+    if not rate < LIKELY[0] and not rate > LIKELY[1]:
+        return []
+    way, other = ("smaller", 1000 * rate) if rate < LIKELY[0] else ("larger", rate / 1000)
+    detail = {"rate": rate, "other_rate": other, "way": way}
+    return [Finding("unlikely_rate", "time", 1, detail)]
+
+
 class Clock:
     """The sample rate and the gaps of a log, checked piece by piece against its ``cadence``.
 
@@ -222,7 +235,8 @@ class Clock:
         return abs(period / self.cadence.period - 1)
 
     def findings(self) -> list[Finding]:
-        """The findings ``gaps``, ``two_rates`` and ``rate_wanders``, as far as the log was added.
+        """The findings ``unlikely_rate``, ``gaps``, ``two_rates`` and ``rate_wanders``, as far as
+        the log was added.
 
         ``gaps`` has the ``longest`` step and the ``total`` time lost [s]; ``two_rates`` how many
         samples have another rate than the log, the typical one of these, and since when;
@@ -235,7 +249,7 @@ class Clock:
         return done._found()
 
     def _found(self) -> list[Finding]:
-        found = []
+        found = unlikely_rate(1 / self.cadence.period)
         if self._gaps:
             found.append(
                 Finding(

@@ -7,6 +7,7 @@ name the files that hold more columns.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import permutations
@@ -24,6 +25,7 @@ from pyimu.recording.columns import GROUPS, XYZ
 from pyimu.recording.counts import Scale, finite_number, read_scales
 from pyimu.units import UnitError, convert, did_you_mean
 
+_UNIT = re.compile(r" ?\([^()]*\)$")
 _FRD = np.diag([1.0, -1.0, -1.0])
 _NED = np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -1]])
 BODY = {"flu": np.eye(3), "frd": _FRD}
@@ -54,13 +56,25 @@ class ForeignMap:
     """What was decided where no user wrote it."""
 
     def rename(self, path: Path, header: list[str]) -> list[str]:
-        for name in self.columns:
+        """The names of the columns by the map. Raises UserError for one that is not there."""
+        columns = self.named(header)
+        for name in columns:
             if name not in header:
                 raise UserError(
                     f'{self.path}: key columns."{name}": {path} has no such '
                     f"column{did_you_mean(name, header)}"
                 )
-        return [self.columns.get(cell, cell) for cell in header]
+        return [columns.get(cell, cell) for cell in header]
+
+    def named(self, header: Sequence[str]) -> dict[str, str]:
+        """``columns`` by the cells of a header; it may leave out a unit that stands behind them:
+        ``imu/gyro[0]`` of ``imu/gyro[0] (deg/s)``.
+        """
+        bare = [_UNIT.sub("", cell) for cell in header]
+        return {
+            header[bare.index(name)] if name not in header and bare.count(name) == 1 else name: to
+            for name, to in self.columns.items()
+        }
 
     @property
     def frame(self) -> dict[str, Any]:

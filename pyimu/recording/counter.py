@@ -1,4 +1,6 @@
-"""Counters of time that begin anew at a power of two, as those of microcontrollers do."""
+"""Times that begin anew: counters at a power of two, as those of microcontrollers do, and seconds
+of the day or of the GPS week at its end.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +8,9 @@ import numpy as np
 
 BITS = (16, 24, 32)
 """Widths of such counters."""
+
+CALENDAR = {"day": 86400.0, "GPS week": 604800.0}
+"""s after which times begin anew that count from the start of a day, or of a week (IS-GPS-200)."""
 
 NEARLY = 0.9
 """A step back by more than this part of the counter's range may be its beginning anew."""
@@ -16,15 +21,18 @@ of a counter, but of a second log behind the first."""
 
 
 class Unwrapped:
-    """Makes the times of a log rise on where their counter began anew, piece by piece.
+    """Makes the times of a log rise on where they began anew, piece by piece.
 
-    ``count`` is how often it did, ``bits`` the counter's width, None where it never did.
+    ``seconds`` are in one of their ticks, any of them where their unit is not known. ``count`` is
+    how often they did, ``after`` is what they count up to ("32 bits", "GPS week"), empty where they
+    never began anew.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *seconds: float) -> None:
         self.count = 0
-        self.bits: int | None = None
-        self._added, self._last, self._period = 0, None, 0.0
+        self.after = ""
+        self._spans = spans(*seconds)
+        self._added, self._ticks, self._last, self._period = 0, 0, None, 0.0
 
     def add(self, ticks: np.ndarray) -> np.ndarray:
         """``ticks`` (n,) as the file has them, with the ranges that went by added."""
@@ -43,19 +51,25 @@ class Unwrapped:
             return ticks
         added = np.full(len(ticks), self._added, dtype=ticks.dtype)
         for at in anew:
-            added[at + lead :] += 2**self.bits
+            added[at + lead :] += self._ticks
         self.count += len(anew)
         self._added = added[-1]
         return ticks + added
 
     def _begins_anew(self, before: float, after: float) -> bool:
-        """Whether a counter of whole ticks ran over between two samples."""
-        for bits in BITS:
-            span = 2**bits
+        """Whether the times began anew between two samples: a counter is one of whole ticks."""
+        for span, name in self._spans.items():
             late = after + span - before
             if before < span and before - after > NEARLY * span and late <= LATE * self._period:
-                if self.bits not in (None, bits) or before != int(before):
+                whole = name in CALENDAR or before == int(before)
+                if self._ticks not in (0, span) or not whole:
                     return False
-                self.bits = bits
+                self._ticks, self.after = span, name
                 return True
         return False
+
+
+def spans(*seconds: float) -> dict[int, str]:
+    """Ticks that times may count up to, of so many ``seconds``, and what they are called."""
+    calendar = {round(s / one): name for one in seconds for name, s in CALENDAR.items()}
+    return {2**bits: f"{bits} bits" for bits in BITS} | calendar

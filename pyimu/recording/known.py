@@ -32,9 +32,9 @@ Known = tuple[str, ForeignMap]
 """What the log is, and its map."""
 
 
-def recognised(reader: Reader, wanted: str = "sensor") -> Known | None:
+def recognised(reader: Reader, wanted: str = "sensor", rate: float | None = None) -> Known | None:
     """What is known of the log in ``reader``, None where nothing is; ``wanted`` is what it must
-    hold, see ``Header``.
+    hold, see ``Header``, ``rate`` [Hz] what a map says of one without times.
     """
     if is_own(reader.header):
         return None
@@ -42,7 +42,7 @@ def recognised(reader: Reader, wanted: str = "sensor") -> Known | None:
         columns = test(reader)
         if columns is not None:
             return name, columns
-    found = stated(reader)
+    found = stated(reader, rate or reader.rate)
     return None if found is None else (STATED, found)
 
 
@@ -260,8 +260,9 @@ TRUTHS_OF = (("KITTI's oxts, by its description", _oxts_truth),)
 """Logs that hold a reference for other sensors, too."""
 
 
-def stated(reader: Reader) -> ForeignMap | None:
-    """The map of a table that states every unit it needs, and leaves no choice; else None.
+def stated(reader: Reader, rate: float | None) -> ForeignMap | None:
+    """The map of a table that states every unit it needs, and leaves no choice; else None. Without
+    times its ``rate`` must be known.
 
     Columns named as those of a recording are what they say.
     """
@@ -277,7 +278,7 @@ def stated(reader: Reader) -> ForeignMap | None:
         if unit is None:
             return None
         columns[times[0].cell] = f"time [{unit}]"
-    elif "time" not in own and reader.rate is None:
+    elif "time" not in own and rate is None:
         return None
     found = triads(reader.header)
     for group, needed in (("gyro", True), ("accel", True), ("mag", False)):

@@ -16,7 +16,7 @@ from pyimu.recording.angles import of_angles
 from pyimu.recording.coarse import COARSE_STAMPS, EvenTimes, even_times
 from pyimu.recording.column_map import BODY, ForeignMap, read_map
 from pyimu.recording.columns import ANGLES, GROUP_OF, GROUPS, column_names, own_name
-from pyimu.recording.counter import BITS, NEARLY, Unwrapped
+from pyimu.recording.counter import NEARLY, Unwrapped, spans
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
@@ -102,7 +102,7 @@ class Source:
         is_known = False
         reader, foreign = with_made_columns(reader, foreign)
         if not foreign.columns:
-            known = recognised(reader, wanted)
+            known = recognised(reader, wanted, foreign.rate)
             if known is not None:
                 foreign = merged(known[1], foreign, (*known[1].files, *foreign.files))
                 findings, is_known = tuple(said(known, reader.header)), True
@@ -223,7 +223,7 @@ class Rows:
         Raises UserError with the row for a time that is missing or runs backwards, and for a file
         of fewer than three rows.
         """
-        counter = Unwrapped()
+        counter = Unwrapped(self.source.header.seconds)
         for values, share in self._headed(self._converted(counter)):
             time, values = self._ordered(values)
             self.kept += len(time)
@@ -231,12 +231,18 @@ class Rows:
         if self.kept < LEAST_ROWS:
             raise UserError(
                 f"{self.source.header.path}: a recording needs at least {LEAST_ROWS} rows of data, "
-                f"this one has {self.kept}"
+                f"this one has {self.kept}{self._at_one_time()}"
             )
         self._tally.add([*self._raw.findings(), *self.source.reader.at_end(), *self._spread()])
         if counter.count:
-            detail = {"bits": counter.bits}
+            detail = {"after": counter.after}
             self._tally.add([Finding("counter_wrapped", "time", counter.count, detail)])
+
+    def _at_one_time(self) -> str:
+        """What to add where too few rows have a time of their own."""
+        more = self._seen - self.kept
+        same = "have the time of the row before: is it rounded, or another column's?"
+        return f"; {more:,} more {same}" if more > 0 else ""
 
     def _converted(self, counter: Unwrapped) -> Iterator[tuple[Values, float]]:
         """The columns of each batch in units of the package, and the share of the file read."""
@@ -319,12 +325,13 @@ class Rows:
         return f"{self.source.header.path}: {self.source.reader.place(int(row))}"
 
     def _wrapped(self, step: float) -> str:
-        """What to add where the time went back by nearly the whole range of a counter."""
-        for bits in BITS:
-            span = 2.0**bits * self.source.header.seconds
-            if NEARLY * span < step <= span:
+        """What to add where the time went back by nearly all that it may count up to."""
+        seconds = self.source.header.seconds
+        for ticks, name in spans(seconds).items():
+            if NEARLY * ticks * seconds < step <= ticks * seconds:
+                what = f"a counter of {name}" if name.endswith("bits") else f"a {name}"
                 return (
-                    f"; a counter of {bits} bits wraps after {span:.9g} s, but here more is "
+                    f"; {what} begins anew after {ticks * seconds:.9g} s, but here more is "
                     "missing: cut the log there"
                 )
         return "; cut the log where its clock was set anew, or sort the rows by time"

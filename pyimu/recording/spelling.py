@@ -35,6 +35,7 @@ WORDS = {
     "radians": "rad",
     "mdeg": "mdeg",
     "dps": "deg/s",
+    "d/s": "deg/s",
     "gs": "g",
     "gees": "g",
     "°c": "degC",
@@ -67,6 +68,7 @@ def unit_of(text: str) -> str | None:
     (``deg per s``) and letters outside of ASCII are understood.
     """
     text = text.strip().translate(_POWERS)
+    text = WORDS.get(text, text) if "/" in text else text
     if not text or len(text) > 40 or text in ("count", "counts"):  # names of counters end so
         return None
     tried = [_spelled(text), text] if " " in text else [text, _spelled(text)]

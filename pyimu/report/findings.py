@@ -58,6 +58,8 @@ SENTENCES = {
     ),
     "reference_adapts": ("by {time_constant:.3g} s at rest, half of that at {halves_at:.3g} rad/s"),
     "reference_smoothed": "as by {filter:} {seconds:.3g} s",
+    "unlikely_rate": "{rate:.6g} Hz; it would be {other_rate:.6g} Hz if the times were in a unit "
+    "1,000 times {way:}",
     "time_offset": "the column map moves the times by {offset:.12g} s",
     "rate_of_part": "the part's rate is {other_rate:.6g} Hz, the log's {rate:.6g} Hz",
 }
@@ -88,6 +90,8 @@ def _numbers(column: str, details: Mapping[str, Any]) -> list[str]:
             text = quantity(float(value), sample)
         elif name in ANGLES:
             text = quantity(float(value), "rad")
+        elif name == "white_noise":
+            text = quantity(float(value), "rad/sqrt(s)")
         elif name == "share":
             text = quantity(float(value), "1")
         elif name.endswith(RATES):

@@ -15,7 +15,8 @@ MEANING = {
     "coning": "it turns far between two samples: a higher sample rate would show how",
     "crabbing": "a vehicle moves askew for seconds, by an angle that positions show",
     "constant_channel": "one value all the time: is the axis dead, or not connected?",
-    "counter_wrapped": "the counter of the times began anew: they run on where it did",
+    "counter_wrapped": "the times began anew, as those of a counter, a day or a week do: they run "
+    "on where they did",
     "counts": "whole numbers alone: are these counts? A column map can give the unit of one",
     "damaged": "the file is damaged; what can be read of it was read",
     "dropouts": "the logger lost messages in these spans",
@@ -30,7 +31,14 @@ MEANING = {
     'sign, as iOS does (its columns in [count], [scale] accel = {value = -1, unit = "m/s^2"})',
     "gravity_off": "the force at rest is not gravity: a scale factor, a bias, or another unit",
     "gyro_axes": "gravity does not turn as the gyro says: axes in disorder, or of another sign?",
-    "gyro_unit": "the rates are too large or too small by the factor of another unit",
+    "gyro_at_rest": "it turns while gravity stands still: no bias is so large; is it in deg/s, or "
+    "in counts that have no zero?",
+    "gyro_fast": "beyond 2,000 deg/s, where the range of most gyros ends: are the numbers in deg/s "
+    "where rad/s is stated?",
+    "gyro_noisy": "more white noise at rest than the worst gyros have: are the numbers in deg/s "
+    "where rad/s is stated?",
+    "gyro_unit": "the rates are too large or too small by the factor of another unit: deg/s where "
+    "rad/s is stated, or the other way round",
     "heading_against_field": "headings and magnetometer differ by this angle; both are used",
     "heading_late": "the headings were true so long before their rows, as the gyro shows; taken so",
     "heading_reading": "the headings do not turn as the gyro does: another unit, or another sense?",
@@ -114,6 +122,7 @@ MEANING = {
     "time_origin": "the times begin on a clock of their own (Unix time): they count from the first",
     "turns_between_rests": "turns from rest to rest, by which the gyro was judged",
     "two_rates": "a stretch has another sample rate than the rest of the log",
+    "unlikely_rate": "few sensors are sampled so: are the times in another unit than is stated?",
     "unknown_truth": "no sample was made here: the truth is not known",
     "unused_column": "no column of a recording has this name; --columns names it if you need it",
     "unused_topic": "a topic that was not read; a column map can name it",

@@ -221,3 +221,17 @@ def test_any_log_has_a_page(world, rows, tmp_path):
     for given in (log, replace(log, accel=None)):
         page = run(given, part()).write(tmp_path).read_text()
         assert "nan" not in re.sub(r"<[^>]*>", "", page).lower().split()
+
+
+def test_a_log_without_accelerometer_says_so_once_and_of_the_gyro_what_is_missing(world):
+    """Bit 1 of its status is of the gyro's samples, not of those that it has none of."""
+    log = replace(recorded(world).slice(0, 1000), accel=None)
+    gyro = log.gyro.copy()
+    gyro[400:600] = np.nan
+    found = run(replace(log, gyro=gyro), part())
+    assert np.flatnonzero(found.status & 1).tolist() == list(range(400, 600))
+    assert "no accelerometer (accel_x, accel_y, accel_z)" in found.report()
+    assert not np.any(run(log, part()).status & 1)
+    keep = np.r_[0:300, 500:1000]
+    cut = Recording.from_arrays(time=log.time[keep], gyro=log.gyro[keep])
+    assert np.flatnonzero(run(cut, part()).status & 1).tolist() == [300]

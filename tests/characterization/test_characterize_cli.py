@@ -147,6 +147,15 @@ def test_a_script_can_tell_a_log_that_moves(pyimu, undrawn, tmp_path):
         assert (code, out) == (status, "") and said in err and bool(said) == bool(err)
 
 
+def test_a_gyro_in_another_unit_is_said_before_its_coefficients(pyimu, undrawn, tmp_path):
+    accel = [0, 0, 9.81] + 0.02 * np.random.default_rng(2).standard_normal((ROWS, 3))
+    log = write(tmp_path, gyro=gyro() * 180 / np.pi, accel=accel)
+    code, out, _ = pyimu("characterize", log, "--out", tmp_path)
+    assert code == 0
+    first = out[: out.index("angle random walk")]
+    assert "are the numbers in deg/s where rad/s is stated?" in first
+
+
 def test_the_part_is_exported_too(pyimu, undrawn, tmp_path):
     log = write(tmp_path, accel=1e-2 * gyro(2) + [0, 0, 9.8], gyro=gyro())
     code, out, _ = pyimu("characterize", log, "--export", "kalibr,px4", "--out", "out")

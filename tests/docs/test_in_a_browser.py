@@ -1,11 +1,15 @@
 """Pages in a real browser, where there is one: no wider than a phone, and without an error."""
 
+from importlib.resources import files
+
 import browser
 import docs_site
 import numpy as np
 import pytest
 import raw_logs
 from screenshots import OVERHANG, shots
+
+from pyimu.report.page import equation
 
 pytestmark = [
     pytest.mark.long,
@@ -46,6 +50,36 @@ def test_a_report_is_no_wider_than_a_phone(pyimu, opened, log, tmp_path, command
     count = opened.value(f"{open_all} all.forEach(b => b.click()); all.length")
     assert count >= 1 and opened.value("document.querySelectorAll('.uplot').length") >= count
     assert (opened.value(OVERHANG), opened.errors) == (0, [])
+
+
+NARROW = browser.View(360, 800)
+"""A phone of small size."""
+
+WORDS = '<span class="words">{}</span>'
+
+TABLES = {
+    "which noise it is": [
+        ["gyro_<wbr>x", "N + B + G + H of 21.8 min and 0.0800 s", "-10", "its own scatter"],
+        ["", "N + B (taken)", "0", "its own scatter"],
+    ],
+    "coefficients": [["<b>angle</b> random walk", *["2.2863 (2.2731 to 2.2996)"] * 3]],
+}
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_tables_and_equations_fit_a_small_phone(opened, tmp_path, table):
+    css = (files("pyimu.report") / "templates" / "page.css").read_text()
+    cells = [[WORDS.format(row[0]), WORDS.format(row[1]), *row[2:]] for row in TABLES[table]]
+    rows = "".join("<tr>" + "".join(f"<td>{c}</td>" for c in row) + "</tr>" for row in cells)
+    long = equation("y = " + "+".join([r"\frac{11 - 18 z^{-1}}{6 h}"] * 9))
+    (tmp_path / "page.html").write_text(
+        f"<meta name=viewport content='width=device-width'><style>{css}</style>"
+        f"<p class=equation>{long}</p><div class=scroll><table>{rows}</table></div>"
+    )
+    opened.open(browser.address(tmp_path / "page.html"), NARROW)
+    assert opened.value(OVERHANG) == 0
+    over = "(e => e.scrollWidth - e.clientWidth)(document.querySelector('.scroll'))"
+    assert opened.value(over) <= 0
 
 
 def test_a_page_of_the_site_is_no_wider_than_a_phone(opened, tmp_path):

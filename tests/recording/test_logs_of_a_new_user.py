@@ -155,7 +155,7 @@ def test_fahrenheit(columns, tmp_path):
         ("log.csv.xz", b"", "unpack it"),
         ("log.npy", b"", "make a CSV or Parquet of it"),
         ("imu.yaml", b"", "rostopic echo -p"),
-        ("log.lvm", b"", "rename text to .txt"),
+        ("log.abc", b"", "rename text to .txt"),
         ("log.csv", b"", "log.csv: is empty"),
         ("log.csv", b"\n \n", "log.csv: is empty"),
         ("log.csv", f"{HEAD}\r0,0,0,0\r1,0,0,0\r".encode(), "a carriage return alone"),
@@ -173,10 +173,17 @@ def test_what_is_to_be_done_is_said(name, content, said, tmp_path):
 
 
 def test_times_that_are_none_are_named(columns, tmp_path):
-    lines = [",".join(["01:59.5", *r[1:]]) for r in rows(columns)]
+    lines = [",".join(["01:59", *r[1:]]) for r in rows(columns)]
     head = HEAD.replace("time [s]", "stamp").replace(" [rad/s]", "_dps")
     (tmp_path / "log.csv").write_text("\n".join([head, *lines]))
     assert "stamp has no numbers, dates" in inspect(tmp_path / "log.csv").problem
+
+
+def test_rows_of_one_time_are_told_of(columns, tmp_path):
+    lines = [",".join(["5", *r[1:]]) for r in rows(columns)]
+    (tmp_path / "log.csv").write_text("\n".join([HEAD, *lines]))
+    with pytest.raises(UserError, match="this one has 1; 3,999 more have the time of the row befo"):
+        read_recording(tmp_path / "log.csv")
 
 
 def test_what_to_do_where_time_runs_backwards(columns, tmp_path):

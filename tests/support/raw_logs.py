@@ -288,6 +288,46 @@ def apart(folder, log):
     return text(folder / "gyr.csv", ["t,x,y,z"], [time // 1000, *gyro.T])
 
 
+def labview(folder, log):
+    """A LabVIEW measurement file with a column of times, which has one for remarks, too."""
+    time, gyro, accel = log
+    channels = [f"{v}_{a}" for v in ("Gyro", "Accel") for a in "XYZ"]
+    units = ["rad/s"] * 3 + ["m/s^2"] * 3
+    end = "***End_of_Header***"
+    head = ["LabVIEW Measurement\t", "Separator\tTab", "Decimal_Separator\t,", "X_Columns\tOne"]
+    head += [f"{end}\t", "\t", "Channels\t6\t\t\t\t\t\t", "\t".join(["Y_Unit_Label", *units, ""])]
+    head += ["\t".join([n, *[v] * 6, ""]) for n, v in (("X_Dimension", "Time"), ("X0", "0,0E+0"))]
+    head += ["\t".join(["Delta_X", *["0,010000"] * 6, ""]), end + "\t" * 7]
+    head += ["\t".join(["X_Value", *channels, "Comment"])]
+    return text(folder / "log.lvm", head, [1e-9 * time, *gyro.T, *accel.T], "\t", ",")
+
+
+def racelogic(folder, log):
+    """A VBO file that begins ten seconds before a minute is over."""
+    time, gyro, accel = log
+    centis = 5000 + time // 10_000_000
+    day = [
+        f"{c // 360000:02d}{c // 6000 % 60:02d}{c // 100 % 60:02d}.{c % 100:02d}" for c in centis
+    ]
+    channels = [f"{a}_Accel-imu" for a in "XYZ"] + [
+        f"{t}Rate-imu" for t in ("Roll", "Pitch", "Yaw")
+    ]
+    head = ["File created on 01/02/2024 at 00:00:50", "", "[header]", "satellites", "time", ""]
+    head += [
+        "[channel units]",
+        *["m/s^2"] * 3,
+        *["rad/s"] * 3,
+        "",
+        "[comments]",
+        "Log Rate (Hz) : 100",
+    ]
+    head += ["", "[column names]", " ".join(["sats", "time", *channels]), "", "[data]"]
+    rows = zip(day, *accel.T.tolist(), *gyro.T.tolist(), strict=True)
+    lines = [" ".join(["012", d, *map(repr, values)]) for d, *values in rows]
+    (folder / "log.vbo").write_text("\n".join([*head, *lines]) + "\n")
+    return folder / "log.vbo"
+
+
 ALONE = (
     *(
         euroc,
@@ -303,7 +343,7 @@ ALONE = (
         ulog,
         dataflash,
     ),
-    *(dataflash_text, german, xio, dated),
+    *(dataflash_text, german, xio, dated, labview, racelogic),
 )
 """Layouts that are read as they are."""
 

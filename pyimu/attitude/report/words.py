@@ -105,8 +105,8 @@ def _about_columns(a: Outcome) -> list[str]:
     found, kinds, there = [], {f.kind: f for f in a.findings}, a.recording.groups
     if "accel" not in there:
         found.append(
-            "no accelerometer: nothing shows the vertical, roll and pitch are the gyro's from a "
-            "level start"
+            "no accelerometer (accel_x, accel_y, accel_z): nothing shows the vertical; roll and "
+            "pitch are the gyro's alone, from a level start, and drift with it"
         )
     if "gravity_down" in kinds:
         found.append(

@@ -8,11 +8,14 @@ import numpy as np
 
 from pyimu.characterization.outcome import LogResult, Outcome
 from pyimu.errors import Finding
-from pyimu.report.findings import SENSORS
+from pyimu.report.findings import SENSORS, grouped
 from pyimu.report.numbers import joined, number
 
 TIMES = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (0.0, "s"))
 """Seconds of the units of time, the largest first."""
+
+OF_UNITS = ("gyro_at_rest", "gyro_noisy", "gyro_fast", "force_in_g", "unlikely_rate")
+"""Kinds of findings that say that a column, or the times, may be in another unit than is stated."""
 
 FAULTS = {
     "clipping": (
@@ -102,10 +105,12 @@ def _floors(log: LogResult) -> Iterator[str]:
 def doubts(log: LogResult) -> Iterator[str]:
     """Why the coefficients of a log may not be those of the sensor.
 
-    The log holds raw counts, is not at rest, has faults that reach the coefficients, or a warm-up
-    was removed from it.
+    The log holds raw counts, is not at rest, may be in another unit than is stated, has faults that
+    reach the coefficients, or a warm-up was removed from it.
     """
     yield from _not_at_rest(log)
+    for said in grouped(f for f in log.findings if f.kind in OF_UNITS):
+        yield f"{log.name}: {said.line}: {said.meaning}"
     for kind, text in FAULTS.items():
         columns = list(
             dict.fromkeys(f.column for f in log.findings if f.kind == kind and _matters(log, f))

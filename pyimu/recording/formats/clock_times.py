@@ -1,9 +1,11 @@
 """Dates and times of day in words of digits: ``2024-02-01T12:00:00.010Z``, ``12:00:00,010``.
 
 A date that ends with its year may have its day first or its month: of ``2/1/2024 12:00:00`` the
-time of day alone counts, and of ``Wed Dec 22 21:09:46 2021``. Phones write milliseconds behind a
+time of day alone counts, and of ``Wed Dec 22 21:09:46 2021`` and ``01-Feb-2024 12:00:00.010``.
+Phones write milliseconds behind a
 third colon, ``12:00:00:010``, spreadsheets AM or PM behind the time, and pandas' spans the days
-before it, ``0 days 00:00:00.010``.
+before it, ``0 days 00:00:00.010``. Spreadsheets show times with parts of a second without their
+hours, ``59:59.9``, and MATLAB spans with their unit, ``0.01 sec``.
 
 And those that Parquet files and data frames hold as such, with spans of time.
 """
@@ -22,15 +24,17 @@ _MONTH = "(?:Jan|Feb|Mar|Apr|May|Jun|Jul|Aug|Sep|Oct|Nov|Dec)"
 _PATTERN = (
     r"^\s*(?:(?P<year>\d{4})[-/](?P<month>\d{1,2})[-/](?P<day>\d{1,2})[T ]\s*"
     r"|\d{1,2}[-/.]\d{1,2}[-/.](?:\d{4}|\d{2})[T ]\s*"
-    rf"|{_WEEKDAY} {_MONTH} +\d{{1,2}} "
+    rf"|{_WEEKDAY} {_MONTH} +\d{{1,2}} |\d{{1,2}}-{_MONTH}-\d{{4}} "
     r"|(?P<days>\d{1,5}) days? )?"
-    r"(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2})"
+    r"(?:(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2})"
     r"(?:[.,](?P<part>\d{1,9})\d*|:(?P<thousandths>\d{3}))?"
+    r"|(?P<span>\d+(?:\.\d+)?(?:[eE][-+]?\d+)?) (?P<unit>sec|min|hr)"
+    r"|(?P<minutes>\d{1,3}):(?P<of_minute>\d{2})[.,](?P<of_second>\d{1,9}))"
     r"(?:\s*(?P<noon>[AaPp])\.?[Mm]\.?)?"
     r"\s*(?:Z|UTC|(?P<zone>[-+]\d{2}:?\d{2})| \d{4})?\s*$"
 )
 
-DAY = 86400
+DAY, HOUR = 86400, 3600
 """s."""
 
 
@@ -43,7 +47,7 @@ class ClockTimes:
     """Dates and times of day in s since the midnight before the first of them, piece by piece.
 
     So two files of one day have one clock. A time of day that falls by more than half a day is one
-    of the day after.
+    of the day after, and one without its hour one of the hour after.
     """
 
     def __init__(self) -> None:
@@ -56,13 +60,15 @@ class ClockTimes:
         found = pc.extract_regex(cells, _PATTERN)
         field = {name: found.field(k) for k, name in enumerate(_names(found))}
         known = ~np.asarray(pc.is_null(found))
-        hour, minute, second = (_whole(field[n], known) for n in ("hour", "minute", "second"))
+        clock = ("hour", "minute", "second", "minutes", "of_minute")
+        hour, minute, second, minutes, of_minute = (_whole(field[n], known) for n in clock)
         hour = _of_the_day(hour, field["noon"])
         parts = pc.binary_join_element_wise(
-            *(pc.fill_null(field[name], "") for name in ("part", "thousandths")), ""
+            *(pc.fill_null(field[name], "") for name in ("part", "thousandths", "of_second")), ""
         )
         digits = pc.utf8_rpad(parts, width=9, padding="0")
-        seconds = hour * 3600 + minute * 60 + second - _zone(field["zone"], known)
+        seconds = hour * HOUR + (minute + minutes) * 60 + second + of_minute
+        seconds = seconds - _zone(field["zone"], known) + _spans(field["span"], field["unit"])
         days = _days(field, known) + _whole(field["days"], known)
         if known.any() and self._first_day is None:
             at = int(np.flatnonzero(known)[0])
@@ -70,18 +76,20 @@ class ClockTimes:
         # Whole seconds and their parts apart: a sum of both is rounded once.
         times = (days - (self._first_day or 0)) * DAY + seconds + 1e-9 * _whole(digits, known)
         if not np.any(_whole(field["year"], known)):
-            times = self._over_midnight(times, known)
+            shown = HOUR if np.any(np.asarray(pc.fill_null(field["of_second"], "")) != "") else DAY
+            times = self._going_on(times, known, shown)
         return np.where(known, times, np.nan)
 
-    def _over_midnight(self, times: np.ndarray, known: np.ndarray) -> np.ndarray:
+    def _going_on(self, times: np.ndarray, known: np.ndarray, shown: int) -> np.ndarray:
+        """The ``times`` (n,), of which is told what is within ``shown`` s: an hour, or a day."""
         seen = times[known]
         if not len(seen):
             return times
-        falls = np.diff(seen, prepend=seen[0] if self._last is None else self._last) < -DAY / 2
+        falls = np.diff(seen, prepend=seen[0] if self._last is None else self._last) < -shown / 2
         days = self._days + np.cumsum(falls)
         self._last, self._days = float(seen[-1]), int(days[-1])
         times = times.copy()
-        times[known] = seen + DAY * days
+        times[known] = seen + shown * days
         return times
 
 
@@ -141,6 +149,18 @@ def _zone(texts: pa.Array, known: np.ndarray) -> np.ndarray:
     plain = pc.if_else(pc.equal(plain, ""), "+0000", plain)
     hhmm = _whole(pc.replace_substring(plain, "+", ""), known)
     return np.sign(hhmm) * (np.abs(hhmm) // 100 * 3600 + np.abs(hhmm) % 100 * 60)
+
+
+SPANS = {"sec": 1.0, "min": 60.0, "hr": 3600.0}
+"""s in the units behind MATLAB's spans of time."""
+
+
+def _spans(numbers: pa.Array, units: pa.Array) -> np.ndarray:
+    """s (n,) of spans of time, 0 where there is none."""
+    values = pc.if_else(pc.equal(filled := pc.fill_null(numbers, ""), ""), "0", filled)
+    seconds = values.cast(pa.float64()).to_numpy(zero_copy_only=False)
+    size = [SPANS.get(unit, 0.0) for unit in pc.fill_null(units, "").to_pylist()]
+    return seconds * np.array(size)
 
 
 def _days(field: dict[str, pa.Array], known: np.ndarray) -> np.ndarray:

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from pyimu.recording.formats.datasets import Column, DatasetReader, columns_of, skipped, stated_rate
 from pyimu.recording.formats.reader import need
 from pyimu.recording.formats.streams import must_be_held, reading
+from pyimu.recording.spelling import unit_of
 
 CACHE = 1 << 25
 """Bytes of decompressed chunks kept for each array: a slice may end inside of a chunk, which the
 next slice then needs."""
+
+UNITS = ("units", "unit", "Units", "Unit", "UNITS", "UNIT")
+"""Attributes that say the unit of an array, the first by the conventions of netCDF (CF)."""
 
 NUMERIC = (
     "double",
@@ -25,7 +30,10 @@ NUMERIC = (
 
 
 class Hdf5Reader(DatasetReader):
-    """An HDF5 file; ``extra`` is the extra of the package that its reader is asked under."""
+    """An HDF5 file; ``extra`` is the extra of the package that its reader is asked under.
+
+    The ``units`` of arrays by their names stand behind those of their columns.
+    """
 
     def __init__(
         self,
@@ -34,8 +42,12 @@ class Hdf5Reader(DatasetReader):
         extra: str,
         skipped: Sequence[str] = (),
         rate: float | None = None,
+        units: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         super().__init__(path, columns, skipped, rate)
+        self.header = [
+            f"{c.name} ({units[c.array]})" if c.array in units else c.name for c in columns
+        ]
         self.extra = extra
 
     @classmethod
@@ -43,8 +55,9 @@ class Hdf5Reader(DatasetReader):
         """Raises UserError for a file that is none, and where h5py is not installed."""
         with _file(path, extra) as file:
             arrays: list[tuple] = []
-            single = dict(file.attrs)
+            single, units = dict(file.attrs), {}
             file.visititems(lambda name, item: arrays.extend(_array(name, item)))
+            file.visititems(lambda name, item: units.update(_unit(name, item)))
             file.visititems(lambda name, item: single.update(_single(name, item)))
             for name, shape, _ in arrays:
                 must_be_held(path, name, max(shape))
@@ -54,6 +67,7 @@ class Hdf5Reader(DatasetReader):
                 extra,
                 [s for array in arrays for s in skipped(*array)],
                 stated_rate(single),
+                units,
             )
 
     @contextmanager
@@ -75,6 +89,14 @@ def _single(name: str, item: Any) -> dict[str, Any]:
     if hasattr(item, "dtype") and item.size == 1 and item.dtype.kind in "iuf":
         found[name] = item[()]
     return found
+
+
+def _unit(name: str, item: Any) -> dict[str, str]:
+    """The unit of an ``item`` by its name, where an attribute says one that is known."""
+    stated = next((item.attrs[key] for key in UNITS if key in item.attrs), None)
+    stated = stated.decode("utf-8", "replace") if isinstance(stated, bytes) else stated
+    known = isinstance(stated, str) and unit_of(stated) not in (None, "1")
+    return {name: stated.strip()} if known else {}
 
 
 def _array(name: str, item: Any) -> list[tuple]:

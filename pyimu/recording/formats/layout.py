@@ -26,10 +26,14 @@ from pyimu.recording.formats.marked import (
     Marked,
     gnss_logger,
     labelled,
+    sentences,
     vectornav,
 )
 from pyimu.recording.formats.novatel import novatel
 from pyimu.recording.formats.optical import optical
+from pyimu.recording.formats.rate_line import rate_in
+from pyimu.recording.formats.sections import Sections, sections
+from pyimu.recording.formats.thousands import without_marks
 from pyimu.recording.formats.unnamed import names_of
 from pyimu.recording.spelling import bare, unit_of
 
@@ -61,23 +65,17 @@ MESSAGES = (
 )
 """What is said of messages that were printed, a number on a line."""
 
+FIT = (
+    "have a table with a row for each: timestamp_ms + sample_time_offset [ms], calibrated_gyro_x, "
+    "_y, _z [deg/s] and calibrated_accel_x, _y, _z [g]"
+)
+"""What is said of Garmin's files as its FitCSVTool writes them."""
+
 MOST_NAMES = 3
 """Rows of names and units, at most."""
 
 _SEPARATOR = re.compile(r'"?sep=.?"?[,;\t]*', re.I)
 """The first line of a table for a spreadsheet, which says what separates its cells."""
-
-_RATE = re.compile(
-    r"(?<![a-z])(?:(?:(?:update|sampl[a-z]*|output|data)[\s_-]*(?:data[\s_-]*)?(?:rate|freq[a-z]*)"
-    r"|odr|fs)(?:\W{1,4}([\d.]+)\s*(k?)Hz|[\s_]*[(\[]?(k?)Hz[)\]]?\W{1,4}([\d.]+))"
-    r"|date format \S+ at ([\d.]+)\s*(k?)Hz)",
-    re.I,
-)
-"""With its unit behind the number or behind the name, and as the first line of ActiGraph's tables
-says it."""
-
-_PERIOD = re.compile(r"\bsampling (?:rate|time|period|interval) *[:=] *([\d.]+) *ms\b", re.I)
-"""The time between samples, which HyperIMU calls their rate."""
 
 
 @dataclass(frozen=True)
@@ -170,12 +168,39 @@ def layout_of(path: Path, topic: str = "") -> Layout:
     if table is not None:
         found = Layout(table.separator, ".", table.names, table.first, rate=table.rate)
         return replace(found, code=code_of(path))
-    found = replace(told_from(head), code=code_of(path))
+    if any(line.startswith("Type,Local Number,Message,Field 1,") for line in head[:1]):
+        raise UserError(
+            f"{path}: is a list of FIT's messages, with several samples in a cell; {FIT}"
+        )
+    behind = sections(head)
+    if behind is not None:
+        return replace(_behind(behind), code=code_of(path))
+    found = replace(_of_table(head), code=code_of(path))
     for row, line in enumerate(head[: found.first - 1], 1):
         line = line.rstrip("\r\n")
         if not is_comment(line) and len(found.cells(line)) > 1 and found.is_open(line):
             raise UserError(f"{path}: row {row}: {UNCLOSED}")
     return found
+
+
+def _behind(table: Sections) -> Layout:
+    """The layout of a table behind sections."""
+    found = Layout(table.separator, table.decimal, table.names, table.first, rate=table.rate)
+    if table.rewrite is None:
+        return found
+    said = "columns separated by blanks"
+    marked = Marked(table.names, table.rewrite, said, table.clocks)
+    return replace(found, marked=marked, clocks=table.clocks)
+
+
+def _of_table(head: Sequence[str]) -> Layout:
+    """The layout of a table, in which thousands may stand apart."""
+    rewrite = without_marks(head)
+    if rewrite is None:
+        return told_from(head)
+    found = told_from([rewrite(line.rstrip("\r\n")) + "\n" for line in head])
+    marked = Marked(found.names, rewrite, "thousands that stand apart", found.clocks)
+    return replace(found, marked=marked)
 
 
 def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
@@ -198,7 +223,13 @@ def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
     if there is not None:
         return gnss_logger(head, there)
     rows = [line for line in head if line.strip() and not is_comment(line)]
-    return novatel(head) or vectornav(rows) or total_capture(rows) or labelled(rows, path)
+    return (
+        novatel(head)
+        or vectornav(rows)
+        or sentences(rows)
+        or total_capture(rows)
+        or labelled(rows, path)
+    )
 
 
 _ENDS = " ;\r\n"
@@ -247,9 +278,11 @@ def told_from(head: Sequence[str]) -> Layout:
         above = [re.sub(r'^("?#|//|%)+\s*', "", line) for k, line in numbered if k < first]
         named = _names_above(above, form, width)
     whole = [c for _, c in cells[start:] if len(c) == width]
-    names = _names(named, width, _empty(whole, width)) or names_of(whole, form.separator)
+    empty = _empty(whole, width)
+    named = [_over(row, width, empty) for row in named]
+    names = _names(named, width, empty) or names_of(whole, form.separator)
     notes = [line for k, line in numbered if is_comment(line) or k < first]
-    rate = next((hertz for line in notes[:HEAD] if (hertz := _stated_rate(line))), None)
+    rate = next((hertz for line in notes[:HEAD] if (hertz := rate_in(line))), None)
     return Layout(
         form.separator,
         form.decimal,
@@ -265,6 +298,17 @@ def told_from(head: Sequence[str]) -> Layout:
 def _empty(rows: Sequence[Sequence[str]], width: int) -> list[int]:
     """Positions of the columns without anything in them."""
     return [k for k in range(width) if rows and not any(row[k].strip() for row in rows)]
+
+
+def _over(row: Sequence[str], width: int, empty: Sequence[int]) -> Sequence[str]:
+    """A row of names over the columns that have numbers, where it has one for each of these alone:
+    some programs write two tabs between numbers, and one between names.
+    """
+    cells = [cell for cell in row if cell.strip()]
+    if not empty or len(row) >= width or len(cells) != width - len(empty):
+        return row
+    there = iter(cells)
+    return ["" if k in empty else next(there) for k in range(width)]
 
 
 def _clocks(rows: Sequence[Sequence[str]], width: int) -> tuple[int, ...]:
@@ -407,17 +451,3 @@ def _rightwards(row: Sequence[str]) -> list[str]:
     for cell in row:
         filled.append(cell or (filled[-1] if filled else ""))
     return filled
-
-
-def _stated_rate(line: str) -> float | None:
-    """Hz; the sample rate that a line says, as such or as the time between samples."""
-    match, period = _RATE.search(line), _PERIOD.search(line)
-    try:
-        if match:
-            number, kilo = (match[1] or match[4] or match[5]), (match[2] or match[3] or match[6])
-            value = float(number) * (1000 if kilo else 1)
-        else:
-            value = 1000 / float(period[1]) if period else 0.0
-    except (ValueError, ZeroDivisionError):
-        return None
-    return value if value > 0 else None

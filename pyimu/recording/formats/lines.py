@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 import gzip
 import io
+import re
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -38,7 +39,8 @@ def is_comment(line: str) -> bool:
 UTF_16 = "UTF-16"
 UTF_8 = "UTF-8"
 WESTERN = "Windows-1252"
-"""Codes of a text: the second is the usual one, and in the third older spreadsheets write."""
+CHINESE = "GB 2312"
+"""Codes of a text: the second is the usual one, and in the others older programs write."""
 
 _BOMS = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
 """Marks at the start of texts in UTF-16."""
@@ -78,21 +80,22 @@ def _in_utf8(stream: io.BufferedReader) -> BinaryIO:
 
 
 def code_of(path: Path) -> str:
-    """The code of a text by its first 256 KiB: ``UTF_8``, ``UTF_16`` or ``WESTERN``."""
+    """The code of a text by its first 256 KiB, one of those above."""
     with opened(path) as (stream, raw):
         if stream is not raw and isinstance(getattr(stream, "raw", None), Recoded):
             return UTF_16
         try:
-            codecs.getincrementaldecoder("utf-8")().decode(stream.read(LONGEST))
+            codecs.getincrementaldecoder("utf-8")().decode(head := stream.read(LONGEST))
         except UnicodeDecodeError:
-            return WESTERN
+            return WESTERN if _in_chinese(head) is None else CHINESE
     return UTF_8
 
 
 def lines(path: Path) -> Iterator[str]:
     """The lines of a text, without a byte order mark.
 
-    A line that is not in UTF-8 is taken for one in Windows-1252. Raises UserError for bytes that
+    A line that is not in UTF-8 is taken for one in Windows-1252, or in GB 2312 where it may be in
+    that. Raises UserError for bytes that
     are no text there, and for a line longer than ``LONGEST``.
     """
     with opened(path) as (stream, _):
@@ -105,7 +108,10 @@ def lines(path: Path) -> Iterator[str]:
                 )
             text = _decoded(line, number == 1)
             if text is None:
-                raise UserError(f"{path}: is not text in {UTF_8}, {UTF_16} or {WESTERN}")
+                raise UserError(
+                    f"{path}: is not text in {UTF_8}, {UTF_16}, {WESTERN} or {CHINESE}; save text "
+                    f"in another code as {UTF_8}"
+                )
             yield text
 
 
@@ -115,11 +121,30 @@ def _decoded(line: bytes, first: bool) -> str | None:
         return line.decode("utf-8-sig" if first else "utf-8")
     except UnicodeDecodeError:
         pass
+    chinese = _in_chinese(line)
+    if chinese is not None:
+        return chinese
     try:
         text = line.decode("cp1252")
     except UnicodeDecodeError:
         return None
     return text if all(c.isprintable() or c in "\t\r\n\xa0\xad" for c in text) else None
+
+
+_PAIRS = re.compile(rb"[\x80-\xff]+")
+_LEAST_PAIRS = 2
+"""Letters of GB 2312 in a line that are two bytes each: Western ones above ASCII stand alone."""
+
+
+def _in_chinese(text: bytes) -> str | None:
+    """A text in GB 2312, None where it can be none."""
+    runs = _PAIRS.findall(text)
+    if max(map(len, runs), default=0) < 2 * _LEAST_PAIRS or any(len(run) % 2 for run in runs):
+        return None
+    try:
+        return text.decode("gb2312")
+    except UnicodeDecodeError:
+        return None
 
 
 class Recoded(io.RawIOBase):

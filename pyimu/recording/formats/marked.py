@@ -23,6 +23,9 @@ Rewrite = Callable[[str], str | None]
 SHARE = 0.8
 """Of the last half of the first lines so many have labels, the same ones."""
 
+SOME = 0.5
+"""Share that is enough where the labels are not the same ones: of a sample in several lines."""
+
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?nan|[-+]?inf"
 _PAIR = re.compile(
     rf'[\s,;|]*"?(?P<label>[A-Za-z_][\w./()\[\]°]*(?: [\w./()\[\]°]+)*)"?\s*[:=]\s*'
@@ -60,9 +63,10 @@ def labelled(lines: Sequence[str], where: object) -> Marked | None:
     """
     found = [pairs for line in lines[len(lines) // 2 :] if (pairs := _pairs(line)) is not None]
     kinds = Counter(_labels(pairs) for pairs in found)
-    if not kinds or sum(kinds.values()) < SHARE * (len(lines) - len(lines) // 2):
+    (labels, count), *others = kinds.most_common() or [((), 0)]
+    share = len(found) / max(len(lines) - len(lines) // 2, 1)
+    if share < (SOME if others else SHARE):
         return None
-    (labels, count), *others = kinds.most_common()
     if count < SHARE * len(found):
         several = " and ".join(kind[0] for kind, _ in (kinds.most_common(2)))
         raise UserError(
@@ -175,6 +179,34 @@ def vectornav(lines: Sequence[str]) -> Marked | None:
 def _checksum(text: str) -> str:
     """That of NMEA 0183: all characters between $ and * by exclusive or, in two digits."""
     return f"{reduce(lambda a, b: a ^ b, text.encode(), 0):02X}"
+
+
+_SENTENCE = re.compile(r"\$([A-Z]{3,}),(.*)\*([0-9A-Fa-f]{2})\s*")
+
+LEAST_FIELDS = 6
+"""Numbers of a sentence that may hold a sensor's samples."""
+
+
+def sentences(lines: Sequence[str]) -> Marked | None:
+    """How the sentences of NMEA 0183 are read that have the most numbers among ``lines``, None of
+    any others. What they hold their words do not say. One whose checksum is wrong is no row.
+    """
+    found = [match for line in lines if (match := _SENTENCE.fullmatch(line))]
+    kinds = Counter((match[1], match[2].count(",") + 1) for match in found)
+    full = [kind for kind in kinds if kind[1] >= LEAST_FIELDS and kinds[kind] > len(lines) // 4]
+    if not full or len(found) < SHARE * len(lines):
+        return None
+    tag, count = max(full, key=lambda kind: (kind[1], kinds[kind]))
+
+    def rewrite(line: str) -> str | None:
+        match = _SENTENCE.fullmatch(line)
+        if match is None or match[1] != tag:
+            return None
+        right = match[3].upper() == _checksum(line.strip()[1:].rpartition("*")[0])
+        return match[2] if right else line
+
+    names = tuple(f"column {k + 1}" for k in range(count))
+    return Marked(names, rewrite, f"the sentences ${tag}")
 
 
 GNSS_LOGGER = ("UncalGyro", "Gyro", "UncalAccel", "Accel", "UncalMag", "Mag")

@@ -15,6 +15,10 @@ from pyimu.recording.formats.hdf5 import Hdf5Reader
 from pyimu.recording.formats.mat_tags import MOST, check_tags
 from pyimu.recording.formats.streams import reading
 
+FEW = 16
+"""Structures of an array up to which each may be one of a sensor, and numbers of a field up to
+which each is of a sample."""
+
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 
 
@@ -84,8 +88,40 @@ def _items(folder: str, items: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
     for name, item in items.items():
         if isinstance(item, Mapping):
             yield from _items(f"{folder}{name}/", item)
+        elif _is_structures(item):
+            yield from _of_structures(folder + name, item)
         elif isinstance(item, (np.ndarray, list, int, float)) and not name.startswith("__"):
             yield folder + name, item
+
+
+def _is_structures(item: Any) -> bool:
+    """Whether an ``item`` is an array of structures, which comes as a list."""
+    return isinstance(item, list) and bool(item) and all(isinstance(x, Mapping) for x in item)
+
+
+def _of_structures(name: str, items: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, Any]]:
+    """What an array of structures holds: an array for each field that has as many numbers in all of
+    them, each a sample; else of a few structures the arrays of each, ``imu(1)/gyro``.
+    """
+    fields = [key for key in items[0] if all(key in item for item in items)]
+    values = {key: [np.asarray(item[key]) for item in items] for key in fields}
+    samples = {
+        key: np.stack([v.ravel() for v in each])
+        for key, each in values.items()
+        if each[0].dtype.kind in "iufb"
+        and each[0].size <= FEW
+        and all(v.dtype.kind in "iufb" and v.size == each[0].size for v in each)
+    }
+    single = all(v.shape[1] == 1 for v in samples.values())
+    if samples and (len(items) > FEW or single):
+        yield from (
+            (f"{name}/{key}", v[:, 0] if v.shape[1] == 1 else v) for key, v in samples.items()
+        )
+    elif len(items) <= FEW:
+        for k, item in enumerate(items, 1):
+            yield from _items(f"{name}({k})/", item)
+    else:
+        yield name, list(items)
 
 
 def _skipped(name: str, item: Any) -> list[str]:
@@ -96,7 +132,7 @@ def _skipped(name: str, item: Any) -> list[str]:
     if isinstance(item, (int, float)):
         return []
     if isinstance(item, list) and item and isinstance(item[0], Mapping):
-        return [f"{name} ({len(item)} structures, save one whose fields are arrays)"]
+        return [f"{name} ({len(item)} structures without numbers, save arrays)"]
     if isinstance(item, list) or item.dtype.kind == "O":
         return [f"{name} (cells, save arrays)"]
     return skipped(name, item.shape, item.dtype)

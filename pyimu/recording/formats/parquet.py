@@ -12,12 +12,16 @@ from pyarrow import parquet
 
 from pyimu.errors import UserError
 from pyimu.recording.formats.clock_times import Stamps, is_clock
+from pyimu.recording.formats.nested import Leaf, is_number, leaves
 from pyimu.recording.formats.reader import Columns, Reader, as_number
 from pyimu.recording.formats.streams import must_be_held, reading
 from pyimu.recording.formats.text import to_numpy
 
 BATCH = 1 << 16
 """Rows of a piece."""
+
+FIRST = 64
+"""Rows at the start that tell how long the lists of a column are."""
 
 BUFFER = 1 << 20
 """Bytes read ahead of each column: without it a row group's columns are held whole, and a file may
@@ -29,22 +33,41 @@ For the same reason nothing is "pre-buffered": what that reads ahead is kept to 
 
 @dataclass(frozen=True)
 class ParquetReader(Reader):
-    """A Parquet file; ``header`` are its column names, ``rows`` how many it has."""
+    """A Parquet file of ``rows``; ``leaves`` are its columns, each number of a row one."""
 
     path: Path
-    header: list[str]
+    leaves: tuple[Leaf, ...]
     rows: int
-    clocks: tuple[str, ...] = ()
+
+    @property
+    def header(self) -> list[str]:  # type: ignore[override]
+        return [leaf.name for leaf in self.leaves]
+
+    @property
+    def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
+        return tuple(leaf.name for leaf in self.leaves if is_clock(leaf.kind))
 
     @classmethod
     def open(cls, path: Path) -> ParquetReader:
         """Raises UserError for a file that cannot be read."""
         with _reading(path), parquet.ParquetFile(path) as file:
-            schema = file.schema_arrow
-            clocks = tuple(field.name.strip() for field in schema if is_clock(field.type))
-            header = [name.strip() for name in schema.names]
-            must_be_held(path, "its table", file.metadata.num_rows)
-            return cls(path, header, file.metadata.num_rows, clocks)
+            schema, rows = file.schema_arrow, file.metadata.num_rows
+            must_be_held(path, "its table", rows)
+            nested = [f.name for f in schema if pa.types.is_nested(f.type)]
+            some = next(file.iter_batches(FIRST, columns=nested), None) if nested else None
+            found = [
+                leaf
+                for f in schema
+                for leaf in (
+                    [Leaf(f.name.strip(), f.name, f.type)]
+                    if some is None or f.name not in nested
+                    else leaves(f.name, f.type, some.column(f.name))
+                )
+            ]
+            return cls(path, tuple(found), rows)
+
+    def numeric(self) -> list[int]:
+        return [k for k, leaf in enumerate(self.leaves) if leaf.is_number]
 
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
         """Raises UserError for a column that holds no numbers."""
@@ -52,19 +75,16 @@ class ParquetReader(Reader):
             _reading(self.path),
             parquet.ParquetFile(self.path, buffer_size=BUFFER, pre_buffer=False) as file,
         ):
-            fields = [file.schema_arrow.field(position) for position in positions]
-            for position, field in zip(positions, fields):
-                must_be_numbers(self.path, self.header[position], field.type)
-            stamps = {f.name: Stamps() for f in fields if is_clock(f.type)}
-            done = 0
-            for batch in file.iter_batches(
-                BATCH, columns=[field.name for field in fields], use_threads=True
-            ):
+            asked = [self.leaves[position] for position in positions]
+            for leaf in asked:
+                must_be_numbers(self.path, leaf.name, leaf.kind)
+            stamps = {leaf.name: Stamps() for leaf in asked if is_clock(leaf.kind)}
+            tops, done = list(dict.fromkeys(leaf.top for leaf in asked)), 0
+            for batch in file.iter_batches(BATCH, columns=tops, use_threads=True):
+                cells = [leaf.of(batch.column(leaf.top)) for leaf in asked]
                 columns = [
-                    stamps[f.name].add(batch.column(f.name))
-                    if f.name in stamps
-                    else to_numpy(batch.column(f.name))
-                    for f in fields
+                    stamps[leaf.name].add(c) if leaf.name in stamps else to_numpy(c)
+                    for leaf, c in zip(asked, cells, strict=True)
                 ]
                 done += batch.num_rows
                 yield (
@@ -78,8 +98,7 @@ class ParquetReader(Reader):
 
 def must_be_numbers(path: Path, name: str, kind: pa.DataType) -> None:
     """Raises UserError for a column ``name`` of another ``kind``; a clock's is one of seconds."""
-    numbers = (pa.types.is_floating, pa.types.is_integer, pa.types.is_boolean, is_clock)
-    if not any(test(kind) for test in numbers):
+    if not is_number(kind) and not is_clock(kind):
         raise UserError(f"{path}: column {name} holds {kind}, expected numbers")
 
 

@@ -1,4 +1,6 @@
-"""A file whose times stand in two columns: whole seconds, and the nanoseconds of each."""
+"""A file whose times stand in two columns: whole seconds, and the nanoseconds or the microseconds
+of each.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +15,12 @@ from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.columns import own_name
 from pyimu.recording.formats.reader import Columns, Reader, ReaderOver
 
-_SECONDS = re.compile(r"(.*[^A-Za-z])?secs?|(.*[^A-Za-z])?seconds?", re.I)
-_PARTS = re.compile(r"(.*[^A-Za-z])?(?:n|nano)secs?|(.*[^A-Za-z])?nanoseconds?", re.I)
+_SECONDS = re.compile(r"(.*[^A-Za-z])?secs?|(.*[^A-Za-z])?seconds?|Unix ?Time", re.I)
+_PARTS = {
+    1: re.compile(r"(.*[^A-Za-z])?(?:n|nano)secs?|(.*[^A-Za-z])?nanoseconds?", re.I),
+    1000: re.compile(r"(.*[^A-Za-z])?(?:u|micro)secs?|(.*[^A-Za-z])?microseconds?", re.I),
+}
+"""What the parts of a second are called, by their ns."""
 
 SECOND = 10**9
 """ns."""
@@ -26,12 +32,13 @@ LATEST = 9e9
 @dataclass(frozen=True)
 class SplitTimeReader(ReaderOver):
     """What ``reader`` reads, with one column ``name`` [ns] for its columns at ``whole``, of
-    seconds, and at ``part``, of nanoseconds.
+    seconds, and at ``part``, of what has ``size`` ns.
     """
 
     reader: Reader
     whole: int
     part: int
+    size: int = 1
 
     rate = None
 
@@ -67,7 +74,7 @@ class SplitTimeReader(ReaderOver):
         at = positions.index(own)
         for columns, share in self.reader.batches([*theirs, self.part], self.whole):
             *others, part = columns
-            time = _joined(others[at], part)
+            time = _joined(others[at], self.size * part)
             others[at] = time if long == own else time.astype(float)
             yield others, share
 
@@ -103,16 +110,17 @@ def with_one_time(reader: Reader, foreign: ForeignMap) -> tuple[Reader, ForeignM
 def _found(reader: Reader) -> SplitTimeReader | None:
     """``reader`` with one column of its two of times, None where it has no such two.
 
-    Their names are alike but for ``sec`` and ``nsec``, in one of their spellings, and the numbers
-    of its first rows are whole, the nanoseconds less than a second.
+    Their names are alike but for ``sec`` and ``nsec`` or ``usec``, in one of their spellings, and
+    the numbers of its first rows are whole, the parts less than a second.
     """
     names = [_bare(cell) for cell in reader.header]
-    stems = {_stem(_PARTS, name): k for k, name in enumerate(names) if _PARTS.fullmatch(name)}
-    for whole, name in enumerate(names):
-        part = stems.get(_stem(_SECONDS, name)) if _SECONDS.fullmatch(name) else None
-        if part is not None and {whole, part} <= set(reader.numeric()):
-            if _are_parts(reader, whole, part):
-                return SplitTimeReader(reader, whole, part)
+    for size, parts in _PARTS.items():
+        stems = {_stem(parts, name): k for k, name in enumerate(names) if parts.fullmatch(name)}
+        for whole, name in enumerate(names):
+            part = stems.get(_stem(_SECONDS, name)) if _SECONDS.fullmatch(name) else None
+            if part is not None and {whole, part} <= set(reader.numeric()):
+                if _are_parts(reader, whole, part, SECOND // size):
+                    return SplitTimeReader(reader, whole, part, size)
     return None
 
 
@@ -127,14 +135,16 @@ def _stem(pattern: re.Pattern[str], name: str) -> str:
     return next((text for text in found.groups() if text), "") if found else ""
 
 
-def _are_parts(reader: Reader, whole: int, part: int) -> bool:
-    """Whether the numbers are whole seconds and nanoseconds of one, in the first rows."""
+def _are_parts(reader: Reader, whole: int, part: int, second: int) -> bool:
+    """Whether the numbers are whole seconds and parts of one, of which it has ``second``, in the
+    first rows.
+    """
     columns, _ = next(reader.batches([whole, part], whole), ([np.zeros(0)] * 2, 1.0))
     seconds, rest = (column[np.isfinite(column)].astype(float) for column in columns)
     return (
         len(rest) > 0
         and bool(np.all(seconds == np.rint(seconds)) and np.all(rest == np.rint(rest)))
-        and bool(np.all((rest >= 0) & (rest < SECOND)))
+        and bool(np.all((rest >= 0) & (rest < second)))
     )
 
 

@@ -253,7 +253,13 @@ class CsvReader(Reader):
                     continue
                 if not is_number(cells[position], self.layout.decimal):
                     place = f"{self.path}: row {row}, column {self.header[position]}"
-                    raise UserError(f"{place}: '{cells[position]}' is not a number")
+                    apart = re.fullmatch(
+                        r"[-+]?\d{1,3}([,.' ])\d{3}(\1\d{3})*(?!\1)[,.]\d+", cells[position]
+                    )
+                    help = "; thousands stand apart from the first rows on, or not at all"
+                    raise UserError(
+                        f"{place}: '{cells[position]}' is not a number{help if apart else ''}"
+                    )
         return None
 
     def _are_few_broken(self, first: int) -> bool:

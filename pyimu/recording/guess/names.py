@@ -23,6 +23,9 @@ PAIRS = {"gyro": ({"angular", "ang", "rotation", "turn"}, {"velocity", "rate", "
 ROLLS = {"p": "x", "q": "y", "r": "z"}
 """The rates about the axes, as aeroplanes have them, where all three are there."""
 
+RATED = {"roll": "x", "pitch": "y", "yaw": "z"}
+"""Words for the axes before one for a rate, as vehicles have them: ``YawRate``."""
+
 WEAK = {
     "gyro": {"w", "g", "gy", "rate", "rates", "pqr"},
     "accel": {"a", "ac", "f"},
@@ -40,7 +43,14 @@ TICKS = {"millis": "ms", "micros": "us", "nanos": "ns", "cts": "ms"}
 """Words for times that say their unit, as Arduino's functions are called; ``cts`` is that of a
 camera's film in the tables that are made of GoPro's."""
 
-CLOCKS = ("s", "ms", "us", "ns", "min", "h")
+STEPS = {"delta", "diff", "interval"}
+"""Words beside those of times for the time from row to row."""
+
+COUNTERS = {"tick", "ticks", "counter", "count"}
+"""Words beside those of times for one that counts in a unit of its own, such as DJI's
+``Clock:Tick#``."""
+
+CLOCKS = ("s", "ms", "us", "ns", "min", "h", "day")
 """Units of times."""
 
 TEMPERATURES = {"temp", "temperature", "celsius", "imutemp"}
@@ -69,6 +79,9 @@ NO_SAMPLES = DERIVED | TRUTHS
 """Words for what no sensor measures."""
 
 RAW = {"raw"}
+
+SAID_OF_AXES = {"axis", "axes", "value", "values"}
+"""Words beside an axis that say nothing."""
 
 BEHIND = {"cal", "calibrated", "raw"}
 """Words that may stand behind the axis."""
@@ -109,8 +122,11 @@ class Name:
 
     @property
     def is_time(self) -> bool:
-        """Whether it is called a time, and is in no unit that is none of times: ``T(°)``."""
-        if self.axis or (self.unit is not None and self.clock is None):
+        """Whether it is called a time, none between rows, and is in no unit that is none of times:
+        ``T(°)``.
+        """
+        other = self.unit is not None and self.clock is None
+        if self.axis or other or set(self.words) & STEPS:
             return False
         return bool(set(self.words) & (TIMES | MORE_TIMES | set(TICKS)))
 
@@ -190,7 +206,7 @@ def _axis(words: list[str]) -> tuple[str, list[str]]:
 
     A number behind the axis is a sensor's: ``ACC.X 1``.
     """
-    words = [word for word in words if word not in ("axis", "axes")] if len(words) > 1 else words
+    words = [word for word in words if word not in SAID_OF_AXES] if len(words) > 1 else words
     if len(words) > 1 and words[-1] in BEHIND:
         words = [words[-1], *words[:-1]]
     if len(words) > 2 and words[-1].isdigit() and words[-2] in ("w", "x", "y", "z"):
@@ -209,6 +225,10 @@ def _axis(words: list[str]) -> tuple[str, list[str]]:
             match = _AXIS_FIRST.fullmatch("".join(words[-count:]))
             if match:
                 return match[1], [*words[:-count], match[2]]
+        for count in (1, 2):
+            match = _AXIS_FIRST.fullmatch("".join(words[:count]))
+            if match and len(words) > count:
+                return match[1], [match[2], *words[count:]]
     return "", words
 
 
@@ -242,7 +262,7 @@ def triads(header: Sequence[str], file: str = "") -> list[Triad]:
     if [name.cell for name in names] in (ONE_VECTOR, ONE_VECTOR[:3]):
         pairs = zip(names[-3:], "xyz", strict=True)
         names = [*names[:-3], *(replace(n, words=hint, axis=a) for n, a in pairs)]
-    names = _with_rolls(_with_elements(names))
+    names = _with_turns(_with_rolls(_with_elements(names)))
     for position, name in enumerate(names):
         if name.axis:
             stems.setdefault(name.words, {}).setdefault(name.axis, position)
@@ -314,10 +334,25 @@ def _with_rolls(names: Sequence[Name]) -> list[Name]:
     ]
 
 
+def _with_turns(names: Sequence[Name]) -> list[Name]:
+    """The names; of three rates of roll, pitch and yaw these are the axes."""
+    found, rates = list(names), PAIRS["gyro"][1]
+    stems: dict[tuple[str, ...], dict[str, int]] = {}
+    for position, name in enumerate(names):
+        turn = next((word for word in name.words if word in RATED), None)
+        if turn is not None and not name.axis and set(name.words) & rates:
+            rest = tuple(word for word in name.words if word != turn)
+            stems.setdefault(rest, {}).setdefault(RATED[turn], position)
+    for rest, axes in stems.items():
+        for axis, position in axes.items() if len(axes) == 3 else ():
+            found[position] = replace(names[position], words=("angular", *rest), axis=axis)
+    return found
+
+
 def others(header: Sequence[str], taken: Iterable[int]) -> list[tuple[int, int, int]]:
     """Positions of the vectors in a header that no word tells of, those of ``taken`` left out."""
     away, known = set(taken), DERIVED | TRUTHS | ELSE
-    names = enumerate(_with_rolls([named(cell) for cell in header]))
+    names = enumerate(_with_turns(_with_rolls([named(cell) for cell in header])))
     return vectors({k: n for k, n in names if k not in away and not set(n.words) & known})
 
 

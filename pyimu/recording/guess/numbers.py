@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.units import STANDARD_GRAVITY
 
-SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
-"""Units in which clocks count."""
+SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "day": 86400.0}
+"""Units in which clocks count, and the serial dates of spreadsheets."""
 
 USUAL = (8.0, 8000.0)
 """Hz; three decades, within which most inertial sensors are sampled: of units a factor of 1000
@@ -25,11 +25,17 @@ SLOWEST = 0.01
 EPOCH = (946684800.0, 4102444800.0)
 """s since 1970 of the years 2000 and 2100: so large a time is a date, and tells its unit."""
 
+SERIAL = 25569.0
+"""Days from the first of spreadsheets, 1899-12-30, to 1970."""
+
 NEAR_GRAVITY = 0.1
 """By how much the size of gravity may be off where a sensor rests."""
 
 LIKE = 2.0
 """A slope of the gravity's turning on the rate is that of a unit to this factor."""
+
+LEAST_MIDDLE = 512.0
+"""The middle of the numbers of a converter of ten bits."""
 
 SURE = 0.4
 """Least correlation of the gravity's turning with what the rate makes of it. Chosen on BROAD 02, 07
@@ -97,8 +103,11 @@ def time_unit(time: np.ndarray) -> UnitGuess:
     median, first = float(np.median(step)), float(known[0])
     rates = {unit: 1 / (median * size) for unit, size in SECONDS.items()}
     for unit, size in SECONDS.items():
-        if EPOCH[0] < first * size < EPOCH[1] and 1e-3 <= rates[unit] <= 1e6:
-            year = int(1970 + first * size / 31556952)
+        since, slowest = first * size, 1e-3
+        if unit == "day":
+            since, slowest = (first - SERIAL) * size, POSSIBLE[0]
+        if EPOCH[0] < since < EPOCH[1] and slowest <= rates[unit] <= 1e6:
+            year = int(1970 + since / 31556952)
             return UnitGuess(unit, f"a date of {year}, at {rates[unit]:.4g} Hz")
     if np.all(step == 1):
         return UnitGuess(None, "whole numbers one apart: a counter of samples, or times")
@@ -114,12 +123,13 @@ def time_unit(time: np.ndarray) -> UnitGuess:
 
 def warmth_unit(warmth: np.ndarray) -> UnitGuess:
     """The unit of temperatures (n,) of electronics, degC or K, of which ``WARM`` and ``WARM_K``
-    have nothing in common; whole numbers may be counts.
+    have nothing in common; whole numbers may be counts, and are in degC else.
     """
     known = warmth[np.isfinite(warmth)]
+    whole = bool(np.all(known == np.rint(known)))
     if len(known) and not counts(known):
         for unit, (least, most) in (("degC", WARM), ("K", WARM_K)):
-            if least < known.min() and known.max() < most:
+            if least < known.min() and known.max() < most and not (whole and unit == "K"):
                 return UnitGuess(unit, f"they are {known.min():.4g} to {known.max():.4g}")
     return UnitGuess(None, "degC or K?")
 
@@ -135,6 +145,10 @@ def force_unit(force: np.ndarray) -> UnitGuess:
     size = resting_size(force)
     if size is None:
         return UnitGuess(None, "no quiet part of the log shows gravity")
+    middle = _middle(force)
+    if middle is not None:
+        why = f"whole numbers about {middle:.0f}, as counts without a sign: [scale] takes an offset"
+        return UnitGuess(None, why)
     for unit, one in (("m/s^2", STANDARD_GRAVITY), ("g", 1.0), ("mg", 1000.0)):
         if abs(size / one - 1) < NEAR_GRAVITY:
             if unit == "mg" and _is_power(size) and counts(force.ravel()):
@@ -146,6 +160,19 @@ def force_unit(force: np.ndarray) -> UnitGuess:
             return UnitGuess("g", f"gravity is {size:.5g} counts, {whole:.0f} a g", 1 / whole)
         return UnitGuess(None, f"gravity is {size:.5g} counts: see the data sheet for LSB/g")
     return UnitGuess(None, f"gravity is {size:.4g}, in no usual unit (does the log hold it?)")
+
+
+def _middle(force: np.ndarray) -> float | None:
+    """The power of two about which two axes or more lie and none has a sign, as counts (n, 3) of a
+    converter have that begin at zero; None of any other numbers.
+    """
+    if not counts(force.ravel()) or not np.nanmin(force) > 0:
+        return None
+    middles = np.nanmedian(force, axis=0)
+    powers = 2.0 ** np.rint(np.log2(middles))
+    near = powers[np.abs(middles / powers - 1) < NEAR_GRAVITY]
+    alike = [p for p in near if np.count_nonzero(near == p) > 1 and p >= LEAST_MIDDLE]
+    return float(alike[0]) if alike else None
 
 
 def _is_power(size: float) -> bool:
@@ -173,11 +200,8 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
     """
     largest = float(np.nanmax(np.abs(rate))) if np.isfinite(rate).any() else 0.0
     if force is not None and period is not None:
-        lengths = [max(round(block / period), 2) for block in BLOCKS]
-        found = [(*_turning(rate, force, length, period), length) for length in lengths]
-        slope, correlation, length = max(found, key=lambda each: each[1])
-        if correlation > SURE:
-            slope = _whole_turns(rate, force, length, period, slope)
+        slope = turning_of_gravity(rate, force, period)
+        if slope is not None:
             for unit, one in (("rad/s", 1.0), ("deg/s", np.pi / 180)):
                 if 1 / LIKE < slope / one < LIKE:
                     why = f"gravity turns {slope / one:.2f} times as fast as these say"
@@ -252,6 +276,16 @@ def sensitivities(lsb: float) -> UnitGuess | None:
     return UnitGuess("deg/s", why, 1 / near[0])
 
 
+def turning_of_gravity(rate: np.ndarray, force: np.ndarray, period: float) -> float | None:
+    """How many rad/s one of the rates (n, 3) is by what the forces (n, 3) turn; None where they
+    turn with something else, or not at all.
+    """
+    lengths = [max(round(block / period), 2) for block in BLOCKS]
+    found = [(*_turning(rate, force, length, period), length) for length in lengths]
+    slope, correlation, length = max(found, key=lambda each: each[1])
+    return _whole_turns(rate, force, length, period, slope) if correlation > SURE else None
+
+
 def _turning(
     rate: np.ndarray, force: np.ndarray, length: int, period: float
 ) -> tuple[float, float]:
@@ -284,9 +318,10 @@ def _whole_turns(
     of those of 1 rad between two means it makes it a quarter too large.
 
     The scale k of the rates is sought at which two neighbouring means agree, each over ``length``
-    samples that were turned, by k w, to where the two blocks meet.
+    samples that were turned, by k w, to where the two blocks meet. Where it is none near the slope,
+    as of a log that rests but for a moment, the slope counts.
     """
-    step = 1e-3
+    step, start = 1e-3, slope
     for _ in range(TRIES):
         apart = _apart(rate, force, length, period, slope)
         more = _apart(rate, force, length, period, slope * (1 + step))
@@ -299,7 +334,7 @@ def _whole_turns(
         before, slope = slope, slope - float(change @ apart[kept].ravel()) / power
         if abs(slope - before) < step * abs(before) or not slope > 0:
             break
-    return slope
+    return slope if 1 / LIKE < slope / start < LIKE else start
 
 
 def _apart(

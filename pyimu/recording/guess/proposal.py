@@ -14,6 +14,7 @@ from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.endings import fits
 from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.names import (
+    COUNTERS,
     TRUTHS,
     Name,
     angles,
@@ -98,7 +99,7 @@ def _seconds(found: Proposal, numbers: Numbers) -> np.ndarray | None:
     own = next((g for g in found.guesses if g.target == "time"), None)
     if own is None or own.unit not in SECONDS:
         return None
-    values = Unwrapped().add(numbers.of([found.header.index(own.cell)]))
+    values = Unwrapped(*SECONDS.values()).add(numbers.of([found.header.index(own.cell)]))
     return values.astype(float) * SECONDS[own.unit]
 
 
@@ -188,7 +189,7 @@ def _time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None)
         at = [k for k in numbers.positions[:2] if _rises(numbers.of([k]))]
     candidates = []
     for k in at:
-        values = Unwrapped().add(numbers.of([k]))
+        values = Unwrapped(*SECONDS.values()).add(numbers.of([k]))
         if not names[k].is_time and _counts_rows(values):
             found.notes.append(f"{reader.header[k]} counts the rows, and is no time")
         elif _rises(values) or (k in clocks and _mean_rate(values) is not None):
@@ -201,6 +202,7 @@ def _time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None)
         candidates,
         key=lambda c: (
             c[2].unit is None,
+            bool(COUNTERS & set(names[c[0]].words)),
             _unevenness(c[1]),
             "stamp" not in names[c[0]].words,
             "date" not in c[2].why,

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.special import stdtr
 
 from pyimu.errors import Finding
+from pyimu.recording.guess.numbers import turning_of_gravity
 from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.readings import BY_CHANCE, READINGS, changed, likely, named
 from pyimu.recording.recording import Recording
@@ -26,6 +27,10 @@ LIKE = 2.0
 SIZE_OFF = 0.5
 """m/s^2; by which gravity has another size by an accelerometer that nobody calibrated (50 mg)."""
 
+LEANS = np.pi / 6
+"""rad; gravity turns so far in a body that is turned. The forces of one that only speeds up and
+brakes, and pitches a little by it, turn less, and as rates do that are far too small."""
+
 CHANGES = np.concatenate([READINGS, [np.eye(3) / unit for unit in UNITS[1:]]])
 """(50, 3, 3), times the stated rates those of a reading."""
 
@@ -40,17 +45,12 @@ def gyro_findings(recording: Recording) -> tuple[Finding, ...]:
     they would be right. Gravity tells where the forces, turned back by the gyro to where they were
     at the start of a span, are clearly nearer to one gravity than as they are: it hardly does so of
     a vehicle, and not of a body that stays level. There a reference attitude or rate still tells
-    the unit.
+    the unit, and else the turning of the forces from moment to moment.
     """
     if recording.gyro is None:
         return ()
     reading = None if recording.accel is None else _by_gravity(recording)
-    if reading is None:
-        factor = _factor_by_reference(recording)
-    elif reading < len(READINGS):
-        factor = 1.0
-    else:
-        factor = UNITS[reading - len(READINGS) + 1]
+    factor = _factor(recording, reading)
     found = []
     if factor != 1:
         found.append(Finding("gyro_unit", "gyro", len(recording), {"factor": factor}))
@@ -58,6 +58,21 @@ def gyro_findings(recording: Recording) -> tuple[Finding, ...]:
         detail = {"axes": named(READINGS[reading])}
         found.append(Finding("gyro_axes", "gyro", len(recording), detail))
     return tuple(found)
+
+
+def _factor(recording: Recording, reading: int | None) -> float:
+    """Which of ``UNITS`` the rates are too large by, where gravity says the ``reading``.
+
+    The stated one it may say only because no other is clearly better.
+    """
+    known = _factor_by_reference(recording) if reading is None else None
+    if known is not None:
+        return known
+    if reading is not None and reading >= len(READINGS):
+        factor = UNITS[reading - len(READINGS) + 1]
+    else:
+        factor = 1.0 if reading else _factor_by_turning(recording)
+    return 1.0 if factor < 1 and not _leans(recording.accel) else factor
 
 
 def _by_gravity(recording: Recording) -> int | None:
@@ -119,6 +134,36 @@ def _off_gravity(means: np.ndarray) -> np.ndarray:
     return apart + np.maximum(off - SIZE_OFF, 0) ** 2
 
 
+# From moment to moment
+
+
+def _factor_by_turning(recording: Recording) -> float:
+    """Which of ``UNITS`` the rates are too large by, as the change of the forces goes with them.
+
+    It goes so in many short moments of a log in which few spans hold as many pushes to as fro; of
+    axes, and of a factor that is no unit's, it says nothing. 1 where it does not go with them.
+    """
+    if recording.accel is None:
+        return 1.0
+    rate, force = _within_range(recording).gyro, recording.accel
+    size = np.linalg.norm(force, axis=1)
+    middle = np.nanmedian(size) if np.isfinite(size).any() else 0.0
+    if not 1 / LIKE < middle / STANDARD_GRAVITY < LIKE:
+        return 1.0
+    slope = turning_of_gravity(rate, force, recording.sample_period)
+    if slope is None or not slope > 0:
+        return 1.0
+    return next((u for u in UNITS if 1 / LIKE < 1 / slope / u < LIKE), 1.0)
+
+
+def _leans(force: np.ndarray) -> bool:
+    """Whether one in twenty of the forces (n, 3) is ``LEANS`` off the direction of their mean."""
+    known = force[np.isfinite(force).all(axis=1)]
+    mean, size = known.mean(axis=0), np.linalg.norm(known, axis=1)
+    along = known @ mean / np.maximum(size * np.linalg.norm(mean), 1e-9)
+    return bool(np.quantile(along, 0.05) < np.cos(LEANS))
+
+
 # By a reference
 
 
@@ -126,26 +171,26 @@ WINDOW = 0.2
 """s; over which the sizes of the turns of gyro and reference are compared."""
 
 
-def _factor_by_reference(recording: Recording) -> float:
+def _factor_by_reference(recording: Recording) -> float | None:
     """Which of ``UNITS`` the turns of ``ref_q`` or ``ref_rate`` say the rates are too large by.
 
-    It is by their size alone, which is the same in all axes. 1 where they say nothing.
+    It is by their size alone, which is the same in all axes. None where they say nothing.
     """
     turns = _reference_turns(recording)
     if turns is None:
-        return 1.0
+        return None
     ours, theirs = turns
     known = np.isfinite(ours) & np.isfinite(theirs)
     x, y = theirs[known], ours[known]
     if len(x) < 3 or not (x.std() > 0 and y.std() > 0):
-        return 1.0
+        return None
     correlation = float(np.corrcoef(x, y)[0, 1])
     t = correlation * np.sqrt((len(x) - 2) / max(1 - correlation**2, 1e-12))
     if stdtr(len(x) - 2, t) < 1 - BY_CHANCE:
-        return 1.0
+        return None
     # Both have errors: the slope of the one on the other is too flat, that of their spreads not.
     factor = float(y.std() / x.std())
-    return next((u for u in UNITS if 1 / LIKE < factor / u < LIKE), 1.0)
+    return next((u for u in UNITS if 1 / LIKE < factor / u < LIKE), None)
 
 
 def _reference_turns(recording: Recording) -> tuple[np.ndarray, np.ndarray] | None:

@@ -20,6 +20,7 @@ from pyimu.recording.quality.stuck import LEAST_RUN, held_findings, stuck_findin
 from pyimu.recording.quality.wraps import wrap_findings
 from pyimu.recording.quality.zeroed import zeroed_findings
 from pyimu.recording.recording import Recording
+from pyimu.recording.turning import drawn
 from pyimu.units import STANDARD_GRAVITY, ZERO_CELSIUS
 
 WORKS = (-65.0, 175.0)
@@ -32,6 +33,28 @@ NO_GRAVITY = "no_gravity"
 WEIGHTLESS = 0.08
 """Of the Earth's gravity; the Moon's is 0.165, and a gravity of 1, of a log in g, is 0.102."""
 
+FASTEST = np.radians(2100)
+"""rad/s; the range of most gyros ends at 2000 deg/s, from which a scale factor is off by some
+percent."""
+
+SELDOM = 1e-3
+"""Share of the samples up to which larger rates are spikes."""
+
+STANDS = 0.2
+"""m/s^2; standard deviation over a second of a force that stands still. Gravity turns through 1.0
+at the rate ``ZERO_RATE``."""
+
+ZERO_RATE = np.radians(20)
+"""rad/s; initial tolerance of the output at rest of the worst of the consumer's gyros in
+``pyimu/model/typical.toml``."""
+
+MOST_SECONDS = 200
+"""Seconds that are looked at for what a gyro shows at rest."""
+
+NOISIEST = np.radians(0.15) / np.sqrt(2)
+"""rad/sqrt(s); half as much again as the noisiest gyro of the built-in parts has, an ADXRS300 of
+0.1 deg/s/sqrt(Hz) one-sided."""
+
 JITTER = 0.01
 """RMS deviation of the sample steps from their median, in periods, above which it is reported."""
 
@@ -41,7 +64,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
 
     ``zeroed``, ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``,
     ``held_samples``, ``spikes``, ``quantization_step`` for each column; ``jitter``,
-    ``gravity_down``, ``force_in_g``, ``no_gravity`` and ``temperature_unit`` for the recording.
+    ``gravity_down``, ``force_in_g``, ``no_gravity``, ``gyro_fast``, ``gyro_at_rest``,
+    ``gyro_noisy`` and ``temperature_unit`` for the recording.
     """
     names, values = _channels(recording)
     zeroed = _zeroed(recording)
@@ -55,7 +79,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
     force = np.median(quiet, axis=0) if len(quiet) else None
     of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_no_gravity(quiet))
     warmth = _other_temperature(recording)
-    return (*zeroed, *columns, *_spikes(recording), *_jitter(recording), *of_gravity, *warmth)
+    sizes = (*_too_fast(recording), *_at_rest(recording), *of_gravity, *warmth)
+    return (*zeroed, *columns, *_spikes(recording), *_jitter(recording), *sizes)
 
 
 def of_reading(recording: Recording) -> tuple[Finding, ...]:
@@ -163,6 +188,39 @@ def _jitter(recording: Recording) -> Iterator[Finding]:
         yield Finding("jitter", "time", len(step), {"rms": rms, "period": period})
 
 
+def _too_fast(recording: Recording) -> Iterator[Finding]:
+    """Rates beyond the range of most gyros: probably deg/s whose header says rad/s."""
+    if recording.gyro is None:
+        return
+    size = np.abs(recording.gyro)
+    fast = int(np.count_nonzero((size > FASTEST).any(axis=1)))
+    if fast > SELDOM * len(size):
+        yield Finding("gyro_fast", "gyro", fast, {"largest": float(np.nanmax(size))})
+
+
+def _at_rest(recording: Recording) -> Iterator[Finding]:
+    """What a gyro shows in seconds in which gravity stands still, and none does: a rate about a
+    level axis that is larger than any bias, and more noise.
+    """
+    if recording.gyro is None or recording.accel is None:
+        return
+    seconds = _whole_seconds(recording, recording.accel, recording.gyro, most=MOST_SECONDS)
+    force, still = seconds[:, :, :3].mean(axis=1), seconds[:, :, :3].std(axis=1)
+    size = np.linalg.norm(force, axis=1)
+    gravity = np.abs(size / STANDARD_GRAVITY - 1) < 0.1
+    at_rest = gravity & (np.linalg.norm(still, axis=1) < STANDS)
+    if not at_rest.any():
+        return
+    rate, count = seconds[at_rest, :, 3:], int(at_rest.sum())
+    level = np.linalg.norm(np.cross(rate.mean(axis=1), force[at_rest]), axis=1) / size[at_rest]
+    if np.median(level) > ZERO_RATE:
+        yield Finding("gyro_at_rest", "gyro", count, {"value": float(np.median(level))})
+    differences = np.diff(rate, axis=1).std(axis=1) / np.sqrt(2)
+    n = float(np.median(differences.max(axis=1)) * np.sqrt(recording.sample_period))
+    if n > NOISIEST:
+        yield Finding("gyro_noisy", "gyro", count, {"white_noise": n})
+
+
 def _gravity_down(recording: Recording, rest: np.ndarray | None) -> Iterator[Finding]:
     """Gravity on -z at rest: probably a log in forward-right-down axes that nobody declared."""
     if recording.frame_declared or not _is_gravity(rest, STANDARD_GRAVITY):
@@ -222,11 +280,22 @@ def _quietest(recording: Recording) -> np.ndarray:
     """The mean force (k, 3) of each of the quietest seconds, none where no second has all its
     samples.
     """
-    length = max(4, min(round(recording.sample_rate), len(recording) // 10))
-    count = len(recording) // length
-    seconds = recording.accel[: count * length].reshape(count, length, 3)
-    seconds = seconds[np.all(np.isfinite(seconds), axis=(1, 2))]
+    seconds = _whole_seconds(recording, recording.accel)
     if not len(seconds):
         return np.zeros((0, 3))
     spread = seconds.std(axis=1).sum(axis=1)
     return seconds[spread <= np.quantile(spread, 0.1)].mean(axis=1)
+
+
+def _whole_seconds(
+    recording: Recording, *groups: np.ndarray, most: int | None = None
+) -> np.ndarray:
+    """The ``groups`` (n, 3) side by side in the seconds (k, length, c) that have all their samples,
+    of at ``most`` so many, evenly over the log.
+    """
+    length = max(4, min(round(recording.sample_rate), len(recording) // 10))
+    count = len(recording) // length
+    picked = slice(None) if most is None else drawn(count, most)
+    parts = [v[: count * length].reshape(count, length, v.shape[1])[picked] for v in groups]
+    seconds = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=2)
+    return seconds[np.all(np.isfinite(seconds), axis=(1, 2))]
