@@ -12,6 +12,7 @@ it (``whitened``).
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.linalg import solve_toeplitz
@@ -96,7 +97,8 @@ def without_vibration(recording: Recording, still: np.ndarray | None = None) -> 
 
     Where it is ``still`` (n,) they are means of the rest, over ``AT_REST``.
     """
-    period, slow = recording.sample_period, {}
+    period = recording.sample_period
+    slow: dict[str, Any] = {}
     for kind in ("gyro", "accel"):
         values: np.ndarray = getattr(recording, kind)
         whole, slow[kind] = filled(recording.time, values), np.empty(values.shape)
@@ -119,7 +121,7 @@ def slower(recording: Recording) -> tuple[Recording, int]:
     rows = max(1, int(APART / recording.sample_period + 1e-6))
     at = slice(min(rows // 2, len(recording) - 1), None, rows)
     groups = ("gyro", "accel", "stationary", "speed")
-    own = {g: getattr(recording, g)[at] for g in groups if getattr(recording, g) is not None}
+    own: dict[str, Any] = {g: recording.groups[g][at] for g in groups if g in recording.groups}
     return at_own_times(recording, recording.time[at], **own), rows
 
 
@@ -139,7 +141,8 @@ def whitened(recording: Recording, rest: Rest, noise: Noise) -> tuple[Recording,
     parts = [(rest.rows.start, rest.rows.stop)] if rest.seen else rests(recording)
     if sum(b - a for a, b in parts) < FEWEST:
         return recording, noise
-    white, stds = {}, {}
+    white: dict[str, Any] = {}
+    stds: dict[str, Any] = {}
     for kind, name in (("gyro", "rate"), ("accel", "force")):
         values = getattr(recording, kind)
         white[kind] = _filtered(values, _whitening([values[a:b] for a, b in parts]))
