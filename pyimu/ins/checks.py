@@ -15,6 +15,7 @@ from pyimu.ins.measured import MOST_WRONG
 from pyimu.ins.track import Reference, Track
 from pyimu.recording.clock import runs
 from pyimu.recording.columns import XYZ
+from pyimu.recording.integration import integrated
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import CRAWL
@@ -22,8 +23,11 @@ from pyimu.recording.reference.white_noise import white_noise
 from pyimu.units import STANDARD_GRAVITY
 
 ANY_UNIT = 2.0
-"""A median force that is off gravity by this factor, up or down, is no force in that unit; one of
-about 1 is in g."""
+"""A median force that is off gravity by this factor, up or down, is no force in that unit, unless
+its mean is gravity, as of what runs; one of about 1 is in g."""
+
+MEAN_TIME = 5.0
+"""s; over which the velocity of a body changes by less than gravity does."""
 
 UPRIGHT = 0.7
 """Share of gravity on z below which a body at rest leans by more than 45 deg."""
@@ -89,12 +93,29 @@ def check_columns(recording: Recording, gravity: float = STANDARD_GRAVITY) -> No
     force = float(np.median(np.linalg.norm(known, axis=1))) if len(known) else gravity
     if 1 / ANY_UNIT < force / gravity < ANY_UNIT:
         return
+    force = _mean_force(recording)
+    if 1 / ANY_UNIT < force / gravity < ANY_UNIT:
+        return
     in_g = 1 / ANY_UNIT < force < ANY_UNIT
     hint = "are they in g? Then the header is accel_x [g]" if in_g else "in which unit are they?"
     raise UserError(
         f"{recording.name}: accel_x, accel_y, accel_z have a magnitude of {force:.3g} m/s^2 as "
         f"their header says, expected about {gravity:.2g}: {hint}"
     )
+
+
+def _mean_force(recording: Recording) -> float:
+    """m/s^2; the size of the mean force over ``MEAN_TIME`` in axes that do not turn, its median.
+
+    It is gravity but for the change of the velocity in that time, however hard the body is shaken.
+    """
+    known = np.isfinite(recording.gyro).all(axis=1) & np.isfinite(recording.accel).all(axis=1)
+    rate, force = (np.where(known[:, None], v, 0.0) for v in (recording.gyro, recording.accel))
+    world = integrated(rate, recording.sample_period, Rotation.identity()).apply(force)
+    count = max(1, round((recording.time[-1] - recording.time[0]) / MEAN_TIME))
+    parts = np.array_split(np.arange(len(world)), min(count, len(world)))
+    means = [world[rows].sum(axis=0) / max(known[rows].sum(), 1) for rows in parts]
+    return float(np.median(np.linalg.norm(means, axis=1)))
 
 
 def without_outliers(

@@ -183,10 +183,23 @@ def detect(
         ):
             still[start:stop] = False
         else:
-            bias, at, variance_of_bias = mean, float(time[stop - 1]), own
+            known = variance_of_bias + noise.walk**2 * away
+            bias, variance_of_bias = _followed(bias, known, mean, own)
+            at = float(time[stop - 1])
             if before is None or (stop - start) * period > MOMENT:
                 before = _Rest(force, stop - start, stop)
     return Detected(still, float(np.mean(passed)), tuple(steady))
+
+
+def _followed(
+    bias: np.ndarray, known: np.ndarray, mean: np.ndarray, own: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The bias (3,) and its variance after a rest whose ``mean`` has the variance ``own``: that
+    itself, as a bias does more than walk, but of a short rest only what it tells beside what was
+    ``known``, the variance of ``bias``.
+    """
+    share = np.where(own > known, known / (known + own), 1.0)
+    return bias + share * (mean - bias), np.where(own > known, share * own, own)
 
 
 def _parted(

@@ -33,6 +33,7 @@ from pyimu.ins.result import NavigationResult
 from pyimu.ins.stances import standing
 from pyimu.ins.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
 from pyimu.ins.track import Reference, Track, reference_of
+from pyimu.ins.vibration import faster, slower, vibration_of, whitened, without_vibration
 from pyimu.model.catalogue import CATALOGUE, read_off
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
@@ -47,6 +48,10 @@ from pyimu.units import STANDARD_GRAVITY, did_you_mean
 METHODS = ("paper", "strapdown", "filter", "smoother")
 """What a run can do: the integration of Wongwirat 2010, an exact one less the nulls of the rest at
 the start, the filter, and the smoother over it."""
+
+SHAKEN = ("auto", "declared")
+"""Where the rests come from of a log whose vibration at rest is taken out: the unit's samples are
+as they come, and a foot has no engine."""
 
 Say = Callable[..., None]
 
@@ -189,16 +194,25 @@ def _job(
     """The recording with its rests, before what else is known of it."""
     gravity = float(given["gravity"])
     clean = clean_of(recording, declared)
-    rest = rest_at_start(clean, declared, gravity)
+    shakes = vibration_of(clean) if zupt in SHAKEN else None
+    clean = clean if shakes is None else without_vibration(clean)
+    seen, rows = (clean, 1) if shakes is None else slower(clean)
+    rest = rest_at_start(seen, declared, gravity)
     part = known_part(declared, recording, rest)
-    noise = noise_at_rest(recording, part, rest, declared)
-    turns: list[Finding] = []
-    still, _ = stops_of(clean, noise, zupt, turns)
+    noise = noise_at_rest(seen, part, rest, declared)
+    turns: list[Finding] = [] if shakes is None else [shakes.finding]
+    if clean.stationary is not None:
+        still, _ = stops_of(clean, noise, zupt, turns)
+    else:
+        told = (seen, noise) if shakes is None else whitened(seen, rest, noise)
+        still = faster(stops_of(*told, zupt, turns)[0], rows, len(clean))
+    rest = replace(rest, rows=slice(0, rest.rows.stop * rows))
     if zupt in ("auto", "foot") and not still[rest.rows].any():
         rest = replace(rest, seen=False)  # a steady drive, as the part's noise shows
     findings += [*checks.findings(recording, rest, gravity), *turns]
     updates = float(zupt != "off")
     drawn, stds = by_axis(recording, part, untold=True)
+    drawn = drawn if shakes is None else without_vibration(drawn, still)
     clipped = _clipped(recording, part, stds, given)
     settings = {"zupt": updates, "zaru": updates} | clipped | given
     return Job(drawn, clean, part, rest, still, 0.0, gravity, False, zupt == "live", None, settings)

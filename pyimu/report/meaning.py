@@ -108,6 +108,7 @@ MEANING = {
     "repeated_time": "rows with the time of the row before: the first of them counts",
     "rocks": "the body rolls and pitches; the heading is taken for what it is along the gyro",
     "rows_left_out": "rows of another length, as of a line that lost letters: they were left out",
+    "shakes_at_rest": "an engine shakes it at rest: rests were told by its motion without that",
     "shocks": "seconds in which several axes shake at once, as of a knock: they were left out",
     "speed_axis": "the forces say that the body does not drive along x: the speed was not used",
     "speed_sign": "the forces contradict the speed's sign: it was not used",

@@ -150,6 +150,26 @@ def test_a_body_that_turned_far_rests_in_any_attitude():
     assert found.still[100:900].all() and found.still[1300:2900].all()
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_turn_that_grows_in_short_even_stretches_takes_no_bias_along(seed):
+    """Of 0.8 s each, and faster by 10 mrad/s each time: 4.5 standard deviations of its own mean,
+    which is no more than passes for a rest. What is known of the bias by 15 s of rest stays, and
+    the fourth stretch is 17 off it, as is the rest after them where the bias follows each.
+    """
+    time, gyro, accel = resting(4000, seed)
+    shaken = np.random.default_rng(50 + seed).normal(size=(4000, 3))
+    moves = np.zeros(4000, dtype=bool)
+    moves[1500:2400] = True
+    for k in range(4):
+        even = slice(1600 + 200 * k, 1680 + 200 * k)
+        moves[even] = False
+        gyro[even, 2] += 0.010 * (k + 1)
+    accel[moves] += shaken[moves]
+    found = detect(time, gyro, accel, NOISE, H)
+    assert not found.still[2200:2280].any()
+    assert found.still[2450:3950].mean() > 0.95
+
+
 def test_missing_samples_are_no_rest():
     time, gyro, accel = resting(1000)
     accel[500] = np.nan

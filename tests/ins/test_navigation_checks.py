@@ -7,9 +7,10 @@ import pytest
 from navigation_cases import SHORT, assumed, declared, noisy, perfect, white
 
 import pyimu
+from pyimu import Recording
 from pyimu.errors import UserError
 from pyimu.ins import run
-from pyimu.ins.checks import CONSTRAINT, JUMP, constraint
+from pyimu.ins.checks import CONSTRAINT, JUMP, check_columns, constraint
 from pyimu.ins.filtered import COLUMN
 from pyimu.rover.trajectory import motion
 
@@ -35,6 +36,33 @@ def changed(log, name, rows, value):
 def test_a_force_that_is_no_gravity_is_refused(log, factor, hint):
     with pytest.raises(UserError, match=f"magnitude of .* expected about 9.8: .*{hint}"):
         said(replace(log, accel=factor * log.accel))
+
+
+def running(hz=100.0, seconds=30.0):
+    """What a perfect sensor on a runner's foot shows: a place that swings by 0.35 m along and 0.1 m
+    up, at 1.4 and 2.8 Hz, while the foot pitches by 1 rad. The median force is 2.4 times gravity.
+    """
+    t = np.arange(0.0, seconds, 1 / hz)
+    a, b = 2 * np.pi * 1.4 * t, 2 * np.pi * 2.8 * t
+    pitch, rate = np.sin(a + 1), 2 * np.pi * 1.4 * np.cos(a + 1)
+    push = np.stack([0 * t, 0.1 * (2 * np.pi * 2.8) ** 2 * np.sin(b), 0 * t + 9.80665])
+    push[0] = 0.35 * (2 * np.pi * 1.4) ** 2 * np.sin(a)
+    push[2] += push[1]
+    x, z = np.cos(pitch) * push[0] - np.sin(pitch) * push[2], np.zeros(len(t))
+    up = np.sin(pitch) * push[0] + np.cos(pitch) * push[2]
+    return Recording.from_arrays(
+        time=t, gyro=np.stack([z, rate, z], axis=1), accel=np.stack([x, z, up], axis=1)
+    )
+
+
+def test_a_runner_is_told_from_another_unit_by_the_mean_force():
+    """In axes that do not turn what is left of the force over seconds is gravity."""
+    own = running()
+    assert np.median(np.linalg.norm(own.accel, axis=1)) > 2 * 9.80665
+    check_columns(own)
+    for factor, hint in ((1 / 9.80665, "accel_x \\[g\\]"), (9.80665, "in which unit")):
+        with pytest.raises(UserError, match=f"magnitude of .* expected about 9.8: .*{hint}"):
+            check_columns(replace(own, accel=factor * own.accel))
 
 
 def test_another_place_has_another_gravity(log):

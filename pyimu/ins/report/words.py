@@ -84,6 +84,13 @@ def notes(a: Outcome) -> list[str]:
     if "constraint" in kinds:
         lost = np.any(a.filter.scalar("status").astype(int) & UNSEEN)
         out.append(_constraint(kinds["constraint"], bool(lost)))
+    if "shakes_at_rest" in kinds:
+        size = kinds["shakes_at_rest"].detail
+        out.append(
+            f"Something shakes the sensor at rest by {number(size['force'], 2)} m/s^2 and "
+            f"{number(np.degrees(size['rate']), 2)} deg/s, as an engine does: rests were told by "
+            "its motion without that"
+        )
     if "gravity_off" in kinds:
         off = kinds["gravity_off"].detail
         out.append(
