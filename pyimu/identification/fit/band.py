@@ -12,7 +12,8 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.signal import upfirdn
 
-OVERSAMPLING = 2.5
+HANN = 0.7203
+"""Frequency at which the power behind a Hann window has halved, times its length."""
 
 SHORTEST = 1.001
 """Samples of a smoothing window that is hardly any."""
@@ -20,25 +21,23 @@ SHORTEST = 1.001
 HALF = float(np.sqrt(0.5))
 """Gain at which the power is half."""
 
-HANN = 0.7203
-"""Frequency at which the power behind a Hann window has halved, times its length."""
-
 ROUNDING = 1e-9
 """Share of a stride that may be missing of a whole number of samples."""
 
 
 @dataclass(frozen=True)
 class Band:
-    """A weighted moving average of ``taps`` samples, kept every ``stride`` samples.
+    """A Hann-weighted moving average of ``taps`` samples, kept every half of its length.
 
-    ``Band()`` is no filter at all. The window is a plain average over a stride, smoothed by a Hann
-    window as long as makes the power fall to half at the band's frequency. So the windows of all
-    rows add up to a constant, and the rows to the turn that the samples add up to: of noise above
-    the rows' rate nothing comes down to the lowest frequencies, where the derivative of an
-    attitude's noise has least and a bias is told from it.
-    Rows are kept at ``OVERSAMPLING`` times the band's frequency or a little faster: whitening
-    weighs every frequency up to half the row rate alike, and beyond the band there is nothing to
-    trust.
+    ``Band()`` is no filter at all. The window's length follows from the -3 dB frequency: a Hann
+    window of L samples falls to 1/sqrt(2) at 0.7203 of the sample rate over L. It is a plain
+    average over its half, smoothed by the half wave of a cosine as long; of no whole number of
+    samples the average takes the next lower one, which is the ``stride``, and the half wave the
+    rest. So the windows of all rows add up to a constant, and the rows to what the samples add up
+    to: of noise above the rows' rate nothing comes down to the lowest frequencies, where the
+    derivative of an attitude's noise has least and a bias is told from it. Rows are kept no faster:
+    whitening weighs every frequency up to half the row rate alike, and beyond the band there is
+    nothing to trust.
     """
 
     weights: tuple[float, ...] = (1.0,)
@@ -91,11 +90,10 @@ class Band:
 @lru_cache(maxsize=64)
 def _below(share: float) -> Band:
     """Band up to a ``share`` of the sample rate."""
-    if HANN <= 2 * share:
+    half = 0.5 * HANN / share
+    if half <= 1.0:
         return Band()
-    for stride in range(max(1, int(1.0 / (OVERSAMPLING * share) + ROUNDING)), 0, -1):
-        if _passed(share, stride, SHORTEST) > HALF:
-            break
+    stride = int(half + ROUNDING)
     support = brentq(lambda m: _passed(share, stride, m) - HALF, SHORTEST, 1.5 / share)
     return Band(tuple(_window(stride, support)), stride)
 
@@ -108,12 +106,12 @@ def _passed(share: float, stride: int, support: float) -> float:
 
 
 def _window(stride: int, support: float) -> np.ndarray:
-    """Weights, an odd number, of a plain average over ``stride`` samples, smoothed by a Hann window
-    of a ``support`` of no whole number of samples.
+    """Weights, an odd number, of a plain average over ``stride`` samples, smoothed by the half wave
+    of a cosine over a ``support`` of no whole number of samples.
     """
     # Of an even stride the middle lies between two samples: that of the other must do so, too.
     between = 0.5 * (1 - stride % 2)
     at = np.arange(between, support / 2)
     at = np.concatenate([-at[::-1][: len(at) - (stride % 2)], at])
-    hann = 1 + np.cos(2 * np.pi * at / support)
-    return np.convolve(hann / hann.sum(), np.full(stride, 1.0 / stride))
+    wave = np.cos(np.pi * at / support)
+    return np.convolve(wave / wave.sum(), np.full(stride, 1.0 / stride))
