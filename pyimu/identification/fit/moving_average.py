@@ -85,11 +85,7 @@ def likeliest(pieces: Sequence[np.ndarray], order: int, least: float) -> float:
     is likelier by ``WORTH``, by Whittle's likelihood of the frequencies of at least so many cycles
     a row: what was taken out of the slower ones is no noise.
     """
-    seen = [np.fft.rfftfreq(len(v)) for v in pieces]
-    powers = [
-        (2.0 * np.pi * f, np.abs(np.fft.rfft(v)) ** 2 / len(v))
-        for f, v in zip(seen, pieces, strict=True)
-    ]
+    powers = [np.abs(np.fft.rfft(v)) ** 2 / len(v) for v in pieces]
     number = int(np.log(1.0 / (2.0 * np.pi * least)) / np.log(APART))
     away = [float(APART**-k) for k in range(max(number, 0) + 1)]
     lost = [_lost(pieces, powers, least, order, 1.0 - a) for a in away]
@@ -97,14 +93,14 @@ def likeliest(pieces: Sequence[np.ndarray], order: int, least: float) -> float:
     return 1.0 - next(a for a, one in zip(away, lost, strict=True) if one <= min(lost) + WORTH)
 
 
-def _periodogram(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies [rad] and the power at each."""
-    n = len(values)
-    return 2.0 * np.pi * np.fft.rfftfreq(n), np.abs(np.fft.rfft(values)) ** 2 / n
-
-
-def _lost(pieces, powers, least: float, order: int, theta: float) -> float:
-    """Negative log-likelihood [nat] of the ``powers`` of pieces by frequency [rad], where z is an
+def _lost(
+    pieces: Sequence[np.ndarray],
+    powers: Sequence[np.ndarray],
+    least: float,
+    order: int,
+    theta: float,
+) -> float:
+    """Negative log-likelihood [nat] of the ``powers`` of pieces by frequency, where z is an
     autoregression by its autocovariances (Yule and Walker).
     """
     products = np.zeros(order + 1)
@@ -112,11 +108,11 @@ def _lost(pieces, powers, least: float, order: int, theta: float) -> float:
         z = Innovations(theta, []).next(v[:, None])[order:, 0] if theta else v
         products += [z[k:] @ z[: len(z) - k] for k in range(order + 1)]
     taps = np.append(1.0, -solve_toeplitz(products[:-1], products[1:]))
-    shown = []
-    for frequency, power in powers:
-        inside = frequency > 2.0 * np.pi * least
-        w = frequency[inside]
-        gain = np.abs(np.exp(-1j * np.outer(w, np.arange(order + 1))) @ taps)
-        shown.append((power[inside], np.abs(1.0 - theta * np.exp(-1j * w)) ** 2 / gain**2))
-    power, density = (np.concatenate(v) for v in zip(*shown, strict=True))
+    seen, densities = [], []
+    for v, power in zip(pieces, powers, strict=True):
+        shown = np.fft.rfftfreq(len(v)) > least
+        of_average, of_taps = (np.fft.rfft(t, len(v))[shown] for t in ([1.0, -theta], taps))
+        densities.append(np.abs(of_average / of_taps) ** 2)
+        seen.append(power[shown])
+    power, density = np.concatenate(seen), np.concatenate(densities)
     return len(power) * float(np.log(np.mean(power / density))) + float(np.sum(np.log(density)))
