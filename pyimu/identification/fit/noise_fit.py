@@ -139,11 +139,11 @@ def _beside_slow(trial: Trial, time: np.ndarray, left: np.ndarray) -> np.ndarray
     Of a bias that walks the most is left, which is still predicted.
     """
     columns = [np.ones(len(time)), time - time.mean()]
-    if trial.differs:
-        through = np.pi * (time - time[0]) / max(time[-1] - time[0], trial.h)
-        columns += [np.cos(k * through) for k in range(1, HALF_WAVES + 1)]
     if "temperature" in trial.known:
         columns.append(in_band(trial, trial.u[:, COLUMNS["temperature"]])[:, 0])
+    if trial.differs and len(left) >= LEAST_ROWS * (len(columns) + HALF_WAVES):
+        through = np.pi * (time - time[0]) / (time[-1] - time[0])
+        columns += [np.cos(k * through) for k in range(1, HALF_WAVES + 1)]
     if len(left) < LEAST_ROWS * len(columns):
         return left
     slow = np.column_stack(columns)
