@@ -53,11 +53,6 @@ that are off by a degree. The MPU-6050's are allowed +-2 % of another axis, even
 triad, and +-50 mg before it is calibrated (PS-MPU-6000A-00 rev. 3.4, sections 6.1 and 6.2). Between
 0.01 and 0.03 it makes little difference."""
 
-NOMINAL_ACCEL_BIAS_STD = 0.2
-"""m/s^2; standard deviation of the constant error of an axis of such an accelerometer, the setting
-``accel_bias_std``: 20 mg, of the same figures. It is in the standard deviation of the tilt alone:
-no estimate changes."""
-
 NOISIER = 2.0
 """A specimen's noise may be so many times what its part declares; beyond, what shakes it at rest
 is an engine."""
@@ -213,13 +208,6 @@ def scale_std(part: Part | None) -> float:
     are not have a tolerance in their data sheets.
     """
     return NOMINAL_SCALE_STD if part is None else 0.0
-
-
-def accel_bias_std(part: Part | None) -> float:
-    """m/s^2; the setting ``accel_bias_std`` beside a part's tolerances: that of an unknown
-    accelerometer where there is no part, else calibrated, as ``scale_std``.
-    """
-    return NOMINAL_ACCEL_BIAS_STD if part is None else 0.0
 
 
 def axes_std(part: Part | None) -> float:

@@ -12,7 +12,6 @@ import numpy as np
 from pyimu.attitude.alignment import BIAS_STD, MagneticNorth, Yaw, initial_values, initial_yaw
 from pyimu.attitude.calibration import MagnetometerCalibration
 from pyimu.attitude.columns import (
-    accel_bias_std,
     axes_std,
     latitude_of,
     motion_bias,
@@ -311,7 +310,7 @@ def _of_the_log(log: Prepared) -> dict[str, float]:
 def _of_the_part(recording: Recording, known: Part, declared: Part | None) -> dict[str, float]:
     """The settings that follow from what is known of the sensors, and from their tolerances."""
     values = start_values(known, warmer(recording, known))
-    for setting in (rate_noise, scale_std, axes_std, accel_bias_std):
+    for setting in (rate_noise, scale_std, axes_std):
         name = setting.__name__
         values[name] = float(np.hypot(setting(declared), values.get(name, 0.0)))
     return values

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{a8a1331e-30bf-239b-93a0-abdc0bf34074}"
-#define MODEL_TOKEN_FMI3 "{56bdb94d-bbfc-4766-ee58-4f8f44366a25}"
+#define MODEL_TOKEN_FMI2 "{fd91f4be-cb5b-91b9-647e-c70ba221f3b1}"
+#define MODEL_TOKEN_FMI3 "{5d3dcc58-f240-68e6-6f85-4b12199f37f0}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -30,7 +30,7 @@ enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3090 };
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 793063 };
+enum { MODEL_MOST_SAMPLES = 791014 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -18,7 +18,7 @@ from pyimu.attitude.filter.memory import Memory
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.slow_motion import Bounds
 from pyimu.attitude.filter.unscented import Estimate
-from pyimu.attitude.filter.velocity import Motion, followed
+from pyimu.attitude.filter.velocity import Motion, followed, unlevelled
 from pyimu.block.plain import plain_function
 
 OPTIONS = {"cse": True}
@@ -32,7 +32,7 @@ def look(layout: Layout) -> ca.Function:
     x, settings = Memory.estimate_of(working), Settings.of(layout.compensation, p)
     at = settings.scalar
     white = ca.sum1(white_variance(settings, h)) * (h / 3)
-    bounds = Bounds(at["motion_share"], white, at["motion_time"])
+    bounds = Bounds(at["motion_share"], white, at["motion_time"], unlevelled(at))
     moves, before = at["accel_std"] > 0, Motion.unpack(motion)
     after = followed(before, x, moves, bounds, at["gravity"] ** 2 * _tilt(x), h)
     return plain_function("look", symbols, [after.pack()], OPTIONS)

@@ -88,11 +88,13 @@ SIZES = (4, 1, 1, 1, 1, 1)
 class Bounds:
     """Between what the density lies: the least ``share`` of that of the correlation ``time`` in s
     that it is believed to have, and what the ``noise`` of the accelerometer, (m/s^2)^2 s, makes.
+    ``unlevelled`` is how little was known of the tilt before the first sample, 0 to 1.
     """
 
     share: ca.SX
     noise: ca.SX
     time: ca.SX
+    unlevelled: ca.SX | float = 0.0
 
     @property
     def least(self):

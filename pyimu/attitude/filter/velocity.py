@@ -50,10 +50,11 @@ it rises: the mean of so many squares is off by half of itself. With a rise that
 the fall, or with negative values taken for none, it would be too large."""
 
 ALIKE = 2.0
-"""Of a body that the run has not shown yet, the variance of the velocity across the vertical is at
-least so many times that along it. Tilt and bias that are not known fit themselves to waves that
-push it to and fro, and no velocity across shows in them; one along the vertical does. Chosen on the
-boats of ``benchmarks/attitude_honesty.py`` with seed 77, runs 0 to 5."""
+"""Of a body that the run has not shown yet, and whose tilt was not known, the variance of the
+velocity across the vertical is at least so many times that along it. Such a tilt, and its bias, fit
+themselves to waves that push the body to and fro, and no velocity across shows in them; one along
+the vertical does. Chosen on the boats of ``benchmarks/attitude_honesty.py`` with seed 77, runs 0 to
+5."""
 
 OUTLIER = 9.0
 """Squared velocity over its variance beyond which it shows by itself that this is too small."""
@@ -247,9 +248,15 @@ def first_std(at: Mapping[str, ca.SX]):
 
     Zero where they say that it never accelerates, larger where no rest has shown the tilt.
     """
-    unlevelled = UNLEVELLED * at["gravity"] * _first_tilt_std(at)
-    least = ca.fmax(FIRST_STD, ca.fmin(unlevelled, MOST_AT_FIRST))
+    least = ca.fmax(FIRST_STD, MOST_AT_FIRST * unlevelled(at))
     return ca.fmax(at["accel_std"] * at["motion_time"], least) * (at["accel_std"] > 0)
+
+
+def unlevelled(at: Mapping[str, ca.SX]):
+    """How little is known of the tilt before the first sample, by the settings ``at``: 0 of a body
+    that is level, 1 of one that may move by ``MOST_AT_FIRST``.
+    """
+    return ca.fmin(UNLEVELLED / MOST_AT_FIRST * at["gravity"] * _first_tilt_std(at), 1)
 
 
 def _first_tilt_std(at: Mapping[str, ca.SX]):
@@ -338,7 +345,7 @@ def followed(motion: Motion, x: Estimate, moves, bounds: Bounds, tilted, h) -> M
         moves * ca.fmax(mean(before, squares[i], window, RISE), least)
         for i, before in enumerate((motion.across, motion.along))
     )
-    across = ca.fmax(across, ALIKE * (1 - known * (1 / WINDOW)) * along)
+    across = ca.fmax(across, ALIKE * bounds.unlevelled * (1 - known * (1 / WINDOW)) * along)
     slow = motion.slow + span / (SLOW * time + span) * (level - motion.slow)
     beyond = _beyond_bounded(slow, across, own, time, h)
     scaled = _by_scale(x, quaternion.to_matrix(x.q))
