@@ -132,12 +132,6 @@ def _about_columns(a: Outcome) -> list[str]:
     for name, of in ALONE.items():
         if name in there and of not in there:
             found.append(f"the column {name} has no column {of} beside it, and was not used")
-    if "accel" in there and not a.parameters.get("accel_bias_std", 1.0):
-        found.append(
-            "the standard deviations of roll and pitch take the accelerometer as calibrated: a "
-            "constant error of 20 mg, as consumer parts are sold with, is 1.1 deg that no time "
-            "averages out (the setting accel_bias_std, or a part with tolerances, has it)"
-        )
     return found
 
 
