@@ -100,17 +100,3 @@ def test_what_samples_waited_to_be_read_is_no_lag_of_the_sensor(size):
     assert clock["taken_out"] and clock["late"] == pytest.approx(4e-3, abs=5e-4)
     assert closed.references[0]["or_sensor"] == (size == 1)
     assert ("a single log does not tell" in closed.report()) == (size == 1)
-
-
-@pytest.mark.parametrize("holds", ["fitted", "held out", "another"])
-def test_a_lag_that_two_logs_have_beside_clocks_of_their_own_may_be_the_sensors(holds):
-    late, other = 4e-3, 4e-3 if holds != "another" else 12e-3
-    pairs = [pair(5, late, 40.0), pair(6, other, 40.0)]
-    logs, given = zip(*pairs, strict=True)
-    if holds == "fitted":
-        closed = pyimu.close(list(logs), reference=list(given))
-    else:
-        closed = pyimu.close(logs[0], holdout=logs[1], reference=list(given))
-    lags = [a.effect for a in closed.added if a.sensor == "gyro"]
-    assert lags == ([] if holds == "another" else ["time_delay"]), closed.report()
-    assert not any(r["or_sensor"] for r in closed.references)

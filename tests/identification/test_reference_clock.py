@@ -74,6 +74,27 @@ def test_a_log_held_apart_has_the_drift_of_its_own_clock(late):
     assert held.clock.at(TIME[-1:]) == pytest.approx(late + drift * TIME[-1], abs=2e-4)
 
 
+LATE, OTHER = 4e-3, 12e-3
+
+
+@pytest.mark.parametrize(
+    ("fitted", "held", "own"),
+    [([LATE], [], 0.0), ([LATE, LATE], [], LATE), ([LATE], [LATE], LATE), ([LATE], [OTHER], 0.0)],
+)
+def test_a_lag_beside_clocks_of_their_own_is_the_sensors_where_two_logs_have_it(fitted, held, own):
+    """One log alone does not tell, and says so."""
+
+    def trial(name, late, seed):
+        return replace(gyro_trial(log(late, seed, name)), reference_apart=True)
+
+    trials = [trial(f"fitted{k}", late, k) for k, late in enumerate(fitted)]
+    apart = [trial(f"held{k}", late, 9 + k) for k, late in enumerate(held)]
+    clock = aligned(trials, apart, Sensor("gyro"))[0].clock
+    assert clock.own == pytest.approx(own, abs=5 * clock.std + 1e-4 * H)
+    assert clock.own + clock.mean == pytest.approx(LATE, abs=5 * clock.std + 1e-4 * H)
+    assert clock.or_sensor == (len(fitted) == 1 and not held)
+
+
 FAST, SLOW, SET_ANEW = 0.02 * TIME, -0.01 * TIME, 0.6 * (TIME > 50.0)
 
 

@@ -95,8 +95,7 @@ def lines(path: Path) -> Iterator[str]:
     """The lines of a text, without a byte order mark.
 
     A line that is not in UTF-8 is taken for one in Windows-1252, or in GB 2312 where it may be in
-    that. Raises UserError for bytes that
-    are no text there, and for a line longer than ``LONGEST``.
+    that. Raises UserError for bytes that are no text there, and for a line longer than ``LONGEST``.
     """
     with opened(path) as (stream, _):
         number = 0
