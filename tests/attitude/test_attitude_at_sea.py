@@ -2,6 +2,7 @@
 
 import numpy as np
 from drives.bodies import at_sea
+from generators import rotation
 
 from pyimu.attitude import run
 from pyimu.recording.recording import Recording
@@ -16,12 +17,8 @@ def test_waves_are_no_bias_of_a_boat_that_never_rested():
     for seed in range(4):
         log = at_sea(np.random.default_rng([5, seed]), 8.0, 0.5)
         found = run(Recording.from_arrays(time=log.time, gyro=log.gyro, accel=log.accel))
-        up, true = (_up(q) for q in (found.q, log.q))
+        up, true = (
+            rotation.in_body(q, np.tile([0.0, 0.0, 1.0], (len(q), 1))) for q in (found.q, log.q)
+        )
         off.append(np.degrees(np.sqrt(np.mean(np.sum((up - true) ** 2, axis=1)[1000:]))))
     assert max(off) < 2 * 1.27, off
-
-
-def _up(q):
-    """The vertical (n, 3) in body axes."""
-    w, x, y, z = q.T
-    return np.column_stack([2 * (x * z - w * y), 2 * (y * z + w * x), w**2 - x**2 - y**2 + z**2])

@@ -7,6 +7,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 from pyarrow import parquet
+from rolling import rolls
 from scipy.io import savemat
 
 from pyimu import inspect, read_recording
@@ -21,11 +22,9 @@ TIME = 0.01 * np.arange(N)
 def vectors():
     """Gyro rad/s and accelerometer m/s^2 (n, 3) of a body that rolls."""
     rng = np.random.default_rng(31)
-    roll = 1.2 * np.sin(2 * np.pi * 0.3 * TIME)
-    gyro = np.stack([np.gradient(roll, TIME), 0 * TIME, 0 * TIME], axis=1)
-    accel = STANDARD_GRAVITY * np.stack([0 * TIME, np.sin(roll), np.cos(roll)], axis=1)
+    gyro, up = rolls(TIME)
     noise = rng.standard_normal((2, N, 3))
-    return gyro + 1e-3 * noise[0], accel + 0.02 * noise[1]
+    return gyro + 1e-3 * noise[0], STANDARD_GRAVITY * up + 0.02 * noise[1]
 
 
 def same(found, gyro, accel):

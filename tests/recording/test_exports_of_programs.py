@@ -4,6 +4,7 @@ short piece in each layout comes to the samples that were put in.
 
 import numpy as np
 import pytest
+from rolling import rolls
 from scipy.io import savemat
 
 from pyimu import inspect, read_recording
@@ -22,10 +23,8 @@ def log():
     """
     rng = np.random.default_rng(5)
     time = np.arange(3000) * 0.01
-    roll = 1.2 * np.sin(2 * np.pi * 0.3 * time)
-    rate = np.gradient(roll, time)
-    up = np.column_stack([0 * time, np.sin(roll), np.cos(roll)])
-    gyro = np.column_stack([rate, 0 * time, 0 * time]) + 1e-3 * rng.standard_normal((3000, 3))
+    rate, up = rolls(time)
+    gyro = rate + 1e-3 * rng.standard_normal((3000, 3))
     accel = STANDARD_GRAVITY * up + 0.02 * rng.standard_normal((3000, 3))
     return time, gyro, accel + np.outer(0.5 * np.sin(7 * time), [1, 0, 0]), up
 

@@ -10,6 +10,7 @@ import pandas as pd
 import pyarrow as pa
 import pytest
 from pyarrow import parquet
+from rolling import rolls
 from scipy.io import savemat
 
 from pyimu import Recording, inspect, read_recording
@@ -27,11 +28,10 @@ def columns():
     """Time s, gyro rad/s and accelerometer m/s^2 (7, n) of a body that rolls."""
     rng = np.random.default_rng(23)
     time = np.arange(4000) * 0.01
-    roll = 1.2 * np.sin(2 * np.pi * 0.3 * time)
-    gyro = np.stack([np.gradient(roll, time), 0 * time, 0 * time])
-    accel = STANDARD_GRAVITY * np.stack([0 * time, np.sin(roll), np.cos(roll)])
+    gyro, up = (v.T for v in rolls(time))
     noise = rng.standard_normal((2, 3, 4000))
-    return np.concatenate([time[None], gyro + 1e-3 * noise[0], accel + 0.02 * noise[1]])
+    accel = STANDARD_GRAVITY * up + 0.02 * noise[1]
+    return np.concatenate([time[None], gyro + 1e-3 * noise[0], accel])
 
 
 def _parquet(path, table):

@@ -5,6 +5,7 @@ or refused without a word that helps.
 import numpy as np
 import pytest
 from log_tables import ardupilot, mavlink, px4, table, vectornav, whole
+from rolling import rolls
 
 from pyimu import inspect, read_recording
 from pyimu.errors import UserError
@@ -23,9 +24,7 @@ def log():
     """Times s, gyro rad/s and accelerometer m/s^2 (n, 3) of a body that is turned and shaken."""
     rng = np.random.default_rng(7)
     time = np.arange(2000) * 0.01
-    roll = 1.2 * np.sin(2 * np.pi * 0.3 * time)
-    gyro = np.column_stack([np.gradient(roll, time), 0 * time, 0 * time])
-    up = np.column_stack([0 * time, np.sin(roll), np.cos(roll)])
+    gyro, up = rolls(time)
     shaken = np.outer(0.5 * np.sin(7 * time), [1, 0, 0])
     noise = rng.standard_normal((2, 2000, 3))
     return time, gyro + 1e-3 * noise[0], STANDARD_GRAVITY * up + shaken + 0.02 * noise[1]

@@ -4,6 +4,7 @@ hours, serial dates.
 
 import numpy as np
 import pytest
+from rolling import rolls
 
 from pyimu import inspect, read_recording
 from pyimu.errors import UserError
@@ -19,11 +20,8 @@ HEAD = "Time (ms),Gyro X (dps),Gyro Y (dps),Gyro Z (dps),Acc X (mg),Acc Y (mg),A
 def values():
     """Rates deg/s and forces mg (n, 6) of a body that rolls, in hundredths."""
     rng = np.random.default_rng(41)
-    roll = 1.2 * np.sin(2 * np.pi * 0.3 * TIME / 1000)
-    zero = np.zeros(N)
-    rates = np.degrees(np.stack([np.gradient(roll, TIME / 1000), zero, zero], axis=1))
-    forces = 1000 * np.stack([zero, np.sin(roll), np.cos(roll)], axis=1)
-    return (np.hstack([rates, forces]) + rng.normal(0, 3, (N, 6))).round(2)
+    rate, up = rolls(TIME / 1000)
+    return (np.hstack([np.degrees(rate), 1000 * up]) + rng.normal(0, 3, (N, 6))).round(2)
 
 
 def shown(value, mark, decimal):

@@ -7,6 +7,7 @@ from functools import reduce
 import numpy as np
 import pandas as pd
 import pytest
+from rolling import rolls
 
 from pyimu import inspect, read_recording
 from pyimu.errors import UserError
@@ -21,11 +22,9 @@ TIME = 0.01 * np.arange(N)
 def vectors():
     """Gyro rad/s and accelerometer m/s^2 (n, 3) of a body that rolls."""
     rng = np.random.default_rng(17)
-    roll = 1.2 * np.sin(2 * np.pi * 0.3 * TIME)
-    gyro = np.stack([np.gradient(roll, TIME), 0 * TIME, 0 * TIME], axis=1)
-    accel = STANDARD_GRAVITY * np.stack([0 * TIME, np.sin(roll), np.cos(roll)], axis=1)
+    gyro, up = rolls(TIME)
     noise = rng.standard_normal((2, N, 3))
-    return (gyro + 2e-3 * noise[0]).round(6), (accel + 0.02 * noise[1]).round(6)
+    return (gyro + 2e-3 * noise[0]).round(6), (STANDARD_GRAVITY * up + 0.02 * noise[1]).round(6)
 
 
 def written(path, head, columns, separator=",", code="utf-8"):
