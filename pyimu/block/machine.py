@@ -25,43 +25,43 @@ CODES = {
     ca.OP_MUL: 3,
     ca.OP_DIV: 4,
     ca.OP_NEG: 5,
-    ca.OP_EXP: 6,
-    ca.OP_LOG: 7,
-    ca.OP_POW: 8,
-    ca.OP_CONSTPOW: 8,
-    ca.OP_SQRT: 9,
-    ca.OP_SQ: 10,
-    ca.OP_TWICE: 11,
-    ca.OP_SIN: 12,
-    ca.OP_COS: 13,
-    ca.OP_TANH: 14,
-    ca.OP_LT: 15,
-    ca.OP_LE: 16,
-    ca.OP_EQ: 17,
-    ca.OP_NE: 18,
-    ca.OP_NOT: 19,
-    ca.OP_AND: 20,
-    ca.OP_OR: 21,
-    ca.OP_FLOOR: 22,
-    ca.OP_CEIL: 23,
-    ca.OP_FABS: 24,
-    ca.OP_SIGN: 25,
-    ca.OP_IF_ELSE_ZERO: 26,
-    ca.OP_FMIN: 27,
-    ca.OP_FMAX: 28,
-    ca.OP_INV: 29,
-    ca.OP_EXPM1: 30,
-    ca.OP_ATAN2: 31,
+    ca.OP_SQ: 6,
+    ca.OP_TWICE: 7,
+    ca.OP_INV: 8,
+    ca.OP_EXP: 9,
+    ca.OP_LOG: 10,
+    ca.OP_POW: 11,
+    ca.OP_CONSTPOW: 11,
+    ca.OP_SQRT: 12,
+    ca.OP_SIN: 13,
+    ca.OP_COS: 14,
+    ca.OP_TANH: 15,
+    ca.OP_EXPM1: 16,
+    ca.OP_ATAN2: 17,
+    ca.OP_LT: 18,
+    ca.OP_LE: 19,
+    ca.OP_EQ: 20,
+    ca.OP_NE: 21,
+    ca.OP_NOT: 22,
+    ca.OP_AND: 23,
+    ca.OP_OR: 24,
+    ca.OP_FLOOR: 25,
+    ca.OP_CEIL: 26,
+    ca.OP_FABS: 27,
+    ca.OP_SIGN: 28,
+    ca.OP_IF_ELSE_ZERO: 29,
+    ca.OP_FMIN: 30,
+    ca.OP_FMAX: 31,
     ca.OP_COPYSIGN: 32,
 }
-"""This machine's own numbers of casadi's operations: what is compiled is kept on disk, and must
-mean the same beside another casadi.
+"""This machine's own numbers of casadi's operations, kind after kind: what is compiled is kept on
+disk, and must mean the same beside another casadi.
 """
 
 
 @njit(cache=True, error_model="numpy")
-def _done(code, x, y):
-    """What an operation makes of its operands."""
+def _arithmetic(code, x, y):
+    """What arithmetic makes of its operands."""
     if code == 0:
         return x
     if code == 1:
@@ -75,58 +75,82 @@ def _done(code, x, y):
     if code == 5:
         return -x
     if code == 6:
-        return math.exp(x)
-    if code == 7:
-        return math.log(x) if x > 0.0 else (-np.inf if x == 0.0 else np.nan)
-    if code == 8:
-        return x**y
-    if code == 9:
-        return np.sqrt(x)
-    if code == 10:
         return x * x
-    if code == 11:
+    if code == 7:
         return x + x
+    return 1.0 / x
+
+
+@njit(cache=True, error_model="numpy")
+def _function(code, x, y):
+    """What a root, a power or a transcendental function makes of them."""
+    if code == 9:
+        return math.exp(x)
+    if code == 10:
+        return math.log(x) if x > 0.0 else (-np.inf if x == 0.0 else np.nan)
+    if code == 11:
+        return x**y
     if code == 12:
-        return math.sin(x)
+        return np.sqrt(x)
     if code == 13:
-        return math.cos(x)
+        return math.sin(x)
     if code == 14:
-        return math.tanh(x)
+        return math.cos(x)
     if code == 15:
-        return 1.0 if x < y else 0.0
+        return math.tanh(x)
     if code == 16:
-        return 1.0 if x <= y else 0.0
-    if code == 17:
-        return 1.0 if x == y else 0.0
-    if code == 18:
-        return 1.0 if x != y else 0.0
-    if code == 19:
-        return 1.0 if x == 0.0 else 0.0
-    if code == 20:
-        return 1.0 if x != 0.0 and y != 0.0 else 0.0
-    if code == 21:
-        return 1.0 if x != 0.0 or y != 0.0 else 0.0
-    if code == 22:
-        return np.floor(x)
-    if code == 23:
-        return np.ceil(x)
-    if code == 24:
-        return abs(x)
-    if code == 25:
-        return 1.0 if x > 0.0 else (-1.0 if x < 0.0 else x)
-    if code == 26:
-        return y if x != 0.0 else 0.0
-    if code == 27:
-        return x if x < y or y != y else y
-    if code == 28:
-        return x if x > y or y != y else y
-    if code == 29:
-        return 1.0 / x
-    if code == 30:
         return math.expm1(x)
+    return math.atan2(x, y)
+
+
+@njit(cache=True, error_model="numpy")
+def _truth(code, x, y):
+    """What a comparison or a logical operation makes of them: 1 where it holds, 0 else."""
+    if code == 18:
+        return 1.0 if x < y else 0.0
+    if code == 19:
+        return 1.0 if x <= y else 0.0
+    if code == 20:
+        return 1.0 if x == y else 0.0
+    if code == 21:
+        return 1.0 if x != y else 0.0
+    if code == 22:
+        return 1.0 if x == 0.0 else 0.0
+    if code == 23:
+        return 1.0 if x != 0.0 and y != 0.0 else 0.0
+    return 1.0 if x != 0.0 or y != 0.0 else 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def _chosen(code, x, y):
+    """What rounding, a sign or a choice among them gives."""
+    if code == 25:
+        return np.floor(x)
+    if code == 26:
+        return np.ceil(x)
+    if code == 27:
+        return abs(x)
+    if code == 28:
+        return 1.0 if x > 0.0 else (-1.0 if x < 0.0 else x)
+    if code == 29:
+        return y if x != 0.0 else 0.0
+    if code == 30:
+        return x if x < y or y != y else y
     if code == 31:
-        return math.atan2(x, y)
+        return x if x > y or y != y else y
     return math.copysign(x, y)
+
+
+@njit(cache=True, error_model="numpy")
+def _done(code, x, y):
+    """What an operation makes of its operands."""
+    if code < 9:
+        return _arithmetic(code, x, y)
+    if code < 18:
+        return _function(code, x, y)
+    if code < 25:
+        return _truth(code, x, y)
+    return _chosen(code, x, y)
 
 
 @njit(cache=True, error_model="numpy")
