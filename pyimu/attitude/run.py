@@ -122,50 +122,32 @@ def run(
     world = _world(place, date, latitude, given)
     latitude = latitude_of(recording, latitude if place is None else float(place[0]))
     heading0 = None if heading0 is None else number("heading0", heading0)
-    if q0 is not None and heading0 is not None:
-        raise UserError("heading0 beside q0, which has a heading of its own: give one of the two")
-    if smooth and method != OWN:
-        raise UserError(f"smooth with the filter {method}: only {OWN} can be smoothed")
+    _check(q0, heading0, smooth, method)
     gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
     log = Prepared.of(recording, part, magnetometer, method == OWN, gravity)
-    recording, known, field = log.recording, log.known, log.field
+    known, field = log.known, log.field
     block = OF_LOGS[method](known)
 
     def unaided(stop: int) -> AttitudeResult:
-        return _unaided(recording, stop, known, latitude, bias0, settings)
+        return _unaided(log.recording, stop, known, latitude, bias0, settings)
 
-    of_heading = _of_heading(recording, unaided) if method == OWN else ()
+    of_heading = _of_heading(log.recording, unaided) if method == OWN else ()
     for found in of_heading:
-        recording = timed(recording, found)
-
-    def turned(row: int) -> float:
-        return float(unaided(row + 1).euler[-1, 2])
+        log = replace(log, recording=timed(log.recording, found))
 
     told = field.settings() | ({} if world is None else world.settings())
     north = _north(block, told | given) if field.used else None
-    yaw = initial_yaw(recording, log.rest, heading0, turned, north) if q0 is None else Yaw()
-    values = told | _of_the_log(replace(log, recording=recording))
-    values |= _of_the_part(recording, known, None if log.declared is None else known)
-    values["motion_bias"] = motion_bias(log.declared)
-    unseen = [values[f"std0[{i}]"] for i in (4, 5, 6)] if "std0[4]" in values else BIAS_STD
-    values |= initial_values(recording, known, log.rest, latitude, q0, yaw, unseen)
-    values |= _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
+    yaw = _yaw(log, heading0, unaided, north) if q0 is None else Yaw()
+    values = told | _at_start(log, latitude, q0, yaw, bias0, std0)
     if method == OWN:
         values |= of_motion(number("rate_noise", (values | given)["rate_noise"]))
-    has = {v.name for v in block.parameters}
-    named = {n: v for n, v in values.items() if n in has} | given
-    p = with_settings(block, named, "the attitude filter")
-    outputs = _estimated(block, recording, known, p, smooth, heard)
-    outputs["status"] &= ~_of_no_accelerometer(recording)
-    outputs["status"][log.between] |= 1
+    p = _parameters(block, values, given)
+    outputs = _estimated(block, log, p, smooth, heard)
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
-    if field.used and getattr(recording, "heading", None) is not None:
-        turning = parameters["field_turning_std"]
-        differ = field_against_headings(recording, outputs["q"], parameters["declination"], turning)
-        of_heading += () if differ is None else (differ,)
+    of_heading += _of_field(log, outputs["q"], parameters)
     return AttitudeResult(
-        recording.name,
-        recording.time,
+        log.recording.name,
+        log.recording.time,
         **outputs,
         recording=log.as_given,
         rest=log.rest,
@@ -178,6 +160,14 @@ def run(
         of_heading=of_heading,
         magnetometer=field.in_world(world),
     )
+
+
+def _check(q0, heading0: float | None, smooth: bool, method: str) -> None:
+    """Raises UserError for what does not go together."""
+    if q0 is not None and heading0 is not None:
+        raise UserError("heading0 beside q0, which has a heading of its own: give one of the two")
+    if smooth and method != OWN:
+        raise UserError(f"smooth with the filter {method}: only {OWN} can be smoothed")
 
 
 def _of_no_accelerometer(recording: Recording) -> np.ndarray:
@@ -222,6 +212,29 @@ def _of_heading(
     return () if found is None else (found,)
 
 
+def _yaw(
+    log: Prepared,
+    heading0: float | None,
+    unaided: Callable[[int], AttitudeResult],
+    north: MagneticNorth | None,
+) -> Yaw:
+    """The yaw of the first sample; ``unaided`` says how far the body has turned by a later one."""
+
+    def turned(row: int) -> float:
+        return float(unaided(row + 1).euler[-1, 2])
+
+    return initial_yaw(log.recording, log.rest, heading0, turned, north)
+
+
+def _of_field(log: Prepared, q: np.ndarray, parameters: Mapping[str, float]) -> tuple[Finding, ...]:
+    """The finding that the headings and the magnetometer differ, by the attitudes (n, 4)."""
+    if not log.field.used or getattr(log.recording, "heading", None) is None:
+        return ()
+    turning = parameters["field_turning_std"]
+    found = field_against_headings(log.recording, q, parameters["declination"], turning)
+    return () if found is None else (found,)
+
+
 def _north(block: Block, settings: Mapping[str, float | str]) -> MagneticNorth:
     """What the settings say of the magnetic north."""
     start = {v.name: v.start for v in block.parameters} | dict(settings)
@@ -257,14 +270,10 @@ def _world(
 
 
 def _estimated(
-    block: Block,
-    recording: Recording,
-    known: Part,
-    p: np.ndarray,
-    smooth: bool,
-    heard: Callable[[float], None],
+    block: Block, log: Prepared, p: np.ndarray, smooth: bool, heard: Callable[[float], None]
 ) -> dict[str, np.ndarray]:
     """The outputs by name, a row for each of the recording's, by the filter or the smoother."""
+    recording, known = log.recording, log.known
     retiming = _retiming(recording, known, p)
     passes = 2 if smooth else 1
     names = [v.name for v in block.inputs]
@@ -278,10 +287,34 @@ def _estimated(
     outputs["status"][grid.after_gap] |= 1
     if retiming is not None:
         outputs = retiming.to_rows(outputs)
+    outputs["status"] &= ~_of_no_accelerometer(recording)
+    outputs["status"][log.between] |= 1
     return outputs
 
 
 # Parameters
+
+
+def _parameters(
+    block: Block, values: Mapping[str, float], given: Mapping[str, float | str]
+) -> np.ndarray:
+    """The block's parameters: ``values``, of which it may lack some, and the settings ``given``."""
+    has = {v.name for v in block.parameters}
+    named = {n: v for n, v in values.items() if n in has} | given
+    return with_settings(block, named, "the attitude filter")
+
+
+def _at_start(log: Prepared, latitude: float, q0, yaw: Yaw, bias0, std0) -> dict[str, float]:
+    """The settings that follow from log and part, and the estimate of the first sample: what is
+    given of it (``q0``, ``bias0``, ``std0`` of ``run``), else what the log shows.
+    """
+    known = log.known
+    values = _of_the_log(log)
+    values |= _of_the_part(log.recording, known, None if log.declared is None else known)
+    values["motion_bias"] = motion_bias(log.declared)
+    unseen = [values[f"std0[{i}]"] for i in (4, 5, 6)] if "std0[4]" in values else BIAS_STD
+    values |= initial_values(log.recording, known, log.rest, latitude, q0, yaw, unseen)
+    return values | _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)
 
 
 def _of_the_log(log: Prepared) -> dict[str, float]:

@@ -138,6 +138,13 @@ class Instant:
         """Whether the body is called stationary, 0 or 1."""
         return self.u[STATIONARY] > 0.5
 
+    @property
+    def has_speed(self):
+        """Whether a speed is given that is one, 0 or 1."""
+        usable = (ca.fabs(self.u[SPEED]) <= ABSURD) * (ca.fabs(self.u[SPEED_VARIANCE]) <= ABSURD)
+        usable *= self.u[SPEED_VARIANCE] >= 0
+        return (self.u[SPEED_VALID] > 0.5) * usable
+
     def driven(self, speed_for):
         """Whether the body is driven, 0 or 1, of which a speed was given ``speed_for`` s ago."""
         return speed_for < HOLD if self.sleeps else ca.SX(0)
@@ -340,6 +347,13 @@ def _turning(at: Instant, sample: Sample):
     return turning.followed(at.memory.turning, sample.rate - at.memory.estimate.bias, at.h)
 
 
+def _place(at: Instant):
+    """Where the newest entry stands in the rings, with this sample: ``Memory.place``."""
+    slot, within = at.memory.place[0], at.memory.place[1]
+    span = at.settings.scalar["heading_memory"]
+    return ca.vertcat(*late_heading.following(slot, within, span, at.h))
+
+
 def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, noise) -> list[ca.SX]:
     """The outputs of a prediction, each as a column.
 
@@ -352,9 +366,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     """
     scalar, kept = at.settings.scalar, at.memory
     known = is_tilt_known(x, kept.motion.long)
-    usable = (ca.fabs(at.u[SPEED]) <= ABSURD) * (ca.fabs(at.u[SPEED_VARIANCE]) <= ABSURD)
-    usable *= at.u[SPEED_VARIANCE] >= 0
-    speed = (at.u[SPEED_VALID] > 0.5) * usable * known
+    speed = at.has_speed * known
     speed_for = ca.if_else(speed, 0, kept.speed_for + at.h)
     driven = at.driven(speed_for)
     goes_on = known * (1 - rest.resting) * (1 - driven)
@@ -371,9 +383,6 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     still = _decided(at, x, rest)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
     field = ca.fmax(kept.field, is_magnetometer(at.u[MAG], at.settings))
-    slot, within = at.memory.place[0], at.memory.place[1]
-    span = at.settings.scalar["heading_memory"]
-    place = late_heading.following(slot, within, span, at.h)
     after = Memory(
         x,
         force.quasi,
@@ -394,7 +403,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         ca.sum2(scaled_tilt(x, vertical(x)) ** 2) * (motion.by_scale / SCALE_TIME),
         ca.fmax(kept.scales, _scales(at)),
         vertical_noise,
-        ca.vertcat(*place),
+        _place(at),
         field,
     )
     working = ca.vertcat(Memory.pack_estimate(x), at.estimate[ESTIMATE - 1], ca.SX.zeros(REPORTED))
