@@ -33,7 +33,7 @@ from pyimu.ins.result import NavigationResult
 from pyimu.ins.stances import standing
 from pyimu.ins.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
 from pyimu.ins.track import Reference, Track, reference_of
-from pyimu.ins.vibration import faster, slower, vibration_of, whitened, without_vibration
+from pyimu.ins.vibration import Samples, faster
 from pyimu.model.catalogue import CATALOGUE, read_off
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
@@ -111,19 +111,14 @@ def run(
     as_given, recording = recording, without(recording, wrong)
     told = Told(position_std, velocity_std, position_age, velocity_age)
     job = _job(recording, declared, zupt, given, findings)
-    measured = _measured(job, zupt, fixes, told, limits["top_speed"])
-    job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc, fixes=measured)
+    job = replace(job, fixes=_measured(job, zupt, fixes, told, limits["top_speed"]))
+    job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc)
     job = replace(job, wheels=nhc or measures_speed(recording))
     reference = reference_of(recording)
     found, start = job.started(heading0, reference)
-    job = job.with_lasting(found, start, say).with_crabbing(start, say)
-    if job.lasting is not None or job.crabs is not None:
-        found = job.filtered(start)
-        findings += job.of_errors
+    job, found = _with_own_errors(job, found, start, findings, say)
     findings += _of_fixes(job, found, start, zupt)
-    if nhc:
-        free = replace(job, nhc=False).filtered(start)
-        findings += checks.constraint(found, job.still, free)
+    findings += _of_constraint(job, found, start)
     if job.live:
         job = replace(job, still=found.scalar("at_rest") > 0.5)
     tracks = _tracks(METHODS if method == "all" else (method,), job, found, start, findings, say)
@@ -140,7 +135,7 @@ def run(
         zupt=zupt,
         **job.told(start),
     )
-    if measured is not None:
+    if job.fixes is not None:
         return result
     wider = {name: track.widened(result.too_sure) for name, track in tracks.items()}
     return replace(result, tracks=wider)
@@ -159,6 +154,20 @@ def _measured(job: Job, zupt: str, fixes: bool, told: Told, top_speed: float) ->
     return fixes_of(recording, told, top_speed)
 
 
+def _with_own_errors(
+    job: Job, found: Filtered, start: Start, findings: list[Finding], say: Say
+) -> tuple[Job, Filtered]:
+    """The job with the errors of its measurements that a first run ``found``, and the run with
+    them: errors of positions that last, and a vehicle that goes askew.
+    """
+    job = job.with_lasting(found, start, say).with_crabbing(start, say)
+    if job.lasting is None and job.crabs is None:
+        return job, found
+    found = job.filtered(start)
+    findings += job.of_errors
+    return job, found
+
+
 def _of_fixes(job: Job, found: Filtered, start: Start, zupt: str) -> list[Finding]:
     """What the run says of measured positions and velocities."""
     fixes, moves = job.fixes, False
@@ -169,6 +178,14 @@ def _of_fixes(job: Job, found: Filtered, start: Start, zupt: str) -> list[Findin
             free = job.filtered(start, fixes=False).track("filter")
             checks.check_not_mirrored(job.recording.name, positions, free)
     return check_fixes(job.recording, fixes, found, moves, zupt == "foot")
+
+
+def _of_constraint(job: Job, found: Filtered, start: Start) -> list[Finding]:
+    """What the run says of wheels that are to roll without slipping."""
+    if not job.nhc:
+        return []
+    free = replace(job, nhc=False).filtered(start)
+    return checks.constraint(found, job.still, free)
 
 
 def _given(settings: Mapping[str, Any] | None) -> tuple[dict[str, Any], dict[str, float]]:
@@ -193,26 +210,23 @@ def _job(
 ) -> Job:
     """The recording with its rests, before what else is known of it."""
     gravity = float(given["gravity"])
-    clean = clean_of(recording, declared)
-    shakes = vibration_of(clean) if zupt in SHAKEN else None
-    clean = clean if shakes is None else without_vibration(clean)
-    seen, rows = (clean, 1) if shakes is None else slower(clean)
-    rest = rest_at_start(seen, declared, gravity)
+    samples = Samples.of(clean_of(recording, declared), zupt in SHAKEN)
+    clean, turns = samples.calm, samples.findings
+    rest = rest_at_start(samples.seen, declared, gravity)
     part = known_part(declared, recording, rest)
-    noise = noise_at_rest(seen, part, rest, declared)
-    turns: list[Finding] = [] if shakes is None else [shakes.finding]
+    noise = noise_at_rest(samples.seen, part, rest, declared)
     if clean.stationary is not None:
         still, _ = stops_of(clean, noise, zupt, turns)
     else:
-        told = (seen, noise) if shakes is None else whitened(seen, rest, noise)
-        still = faster(stops_of(*told, zupt, turns)[0], rows, len(clean))
-    rest = replace(rest, rows=slice(0, rest.rows.stop * rows))
+        marks, _ = stops_of(*samples.white(rest, noise), zupt, turns)
+        still = faster(marks, samples.rows, len(clean))
+    rest = replace(rest, rows=slice(0, rest.rows.stop * samples.rows))
     if zupt in ("auto", "foot") and not still[rest.rows].any():
         rest = replace(rest, seen=False)  # a steady drive, as the part's noise shows
     findings += [*checks.findings(recording, rest, gravity), *turns]
     updates = float(zupt != "off")
     drawn, stds = by_axis(recording, part, untold=True)
-    drawn = drawn if shakes is None else without_vibration(drawn, still)
+    drawn = samples.without(drawn, still)
     clipped = _clipped(recording, part, stds, given)
     settings = {"zupt": updates, "zaru": updates} | clipped | given
     return Job(drawn, clean, part, rest, still, 0.0, gravity, False, zupt == "live", None, settings)

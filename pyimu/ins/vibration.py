@@ -92,6 +92,38 @@ def vibration_of(recording: Recording) -> Vibration | None:
     return Vibration(*sizes) if shakes.all() else None
 
 
+@dataclass(frozen=True)
+class Samples:
+    """A recording as it is looked for rests: ``calm``, without what shakes the body at rest, and of
+    that ``seen``, one in so many ``rows``; where nothing shakes it, as it is.
+    """
+
+    vibration: Vibration | None
+    calm: Recording
+    seen: Recording
+    rows: int
+
+    @classmethod
+    def of(cls, recording: Recording, may_shake: bool) -> Samples:
+        vibration = vibration_of(recording) if may_shake else None
+        if vibration is None:
+            return cls(None, recording, recording, 1)
+        calm = without_vibration(recording)
+        return cls(vibration, calm, *slower(calm))
+
+    @property
+    def findings(self) -> list[Finding]:
+        return [] if self.vibration is None else [self.vibration.finding]
+
+    def white(self, rest: Rest, noise: Noise) -> tuple[Recording, Noise]:
+        """What is seen with white noise at rest, and the size of that."""
+        return (self.seen, noise) if self.vibration is None else whitened(self.seen, rest, noise)
+
+    def without(self, recording: Recording, still: np.ndarray) -> Recording:
+        """Another form of the recording without the vibration; ``still`` (n,) marks its rests."""
+        return recording if self.vibration is None else without_vibration(recording, still)
+
+
 def without_vibration(recording: Recording, still: np.ndarray | None = None) -> Recording:
     """The recording with gyro and accelerometer behind the low-pass; what is missing stays so.
 
