@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,11 +19,11 @@ from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.formula.search import Look
-from pyimu.identification.found.entries import Added, Changed, LogEntry
+from pyimu.identification.found.entries import Added, Changed, Errors, LogEntry
 from pyimu.identification.found.exhibits import Exhibits, exhibits_of
 from pyimu.identification.found.made_with import MadeWith
 from pyimu.identification.logs.overview import Overview, overview
-from pyimu.identification.magnetometer.examine import examined
+from pyimu.identification.magnetometer.examine import Examined, examined
 from pyimu.identification.magnetometer.model import magnetic, with_magnetometer
 from pyimu.identification.model.as_part import SENSORS, as_part
 from pyimu.identification.model.estimated import estimated
@@ -73,10 +74,9 @@ def conclude(
     """The result of the investigations ``found`` of the sensors of a part, with what was made of
     what they leave.
     """
-    together = [*logs, *others]
     say("attitude against the reference")
     fitting = {kind: with_unshown_held(inv) for kind, inv in found.items() if not inv.unfit}
-    fitting, model, attitude, lost = settled(start, declared, fitting, others or logs)
+    fitting, model, *of_attitude = settled(start, declared, fitting, others or logs)
     found = found | fitting
     scales = scales_of(inv.after for inv in fitting.values())
     quality = (*quality, *scales_found(scales))
@@ -86,60 +86,119 @@ def conclude(
     noises = noises_of(start, fitting, model, looks, not another)
     model = model.with_noise(noises)
     model = replace(model, after=with_magnetometer(model.after, start, magnetometer))
-    added, changed, drifts = _findings(start, declared, fitting, model, noises, say)
+    case = _Settled(
+        start, declared, logs, others, found, fitting, model, noises, looks, magnetometer, quality
+    )
+    named = _findings(case, say)
     say("error on held-out data")
     errors, entries, likelihood = scores(found, logs, others, _gained(noises))
-    heading, formulas = heading_rms(found.get("gyro")), _kept(looks.values(), found)
-    rounded = _rounded(found)
-    evidence = Evidence(
+    evidence = _evidence(case, *named, errors, entries, *of_attitude)
+    say("the whole model, and what to measure next")
+    closed = Closed(
+        **_shown(evidence, case.together),
+        **_model_shown(case, evidence),
+        log_likelihood=likelihood,
+        quality=quality,
+        recordings=_with_overviews(entries, case.together, found, quality),
+        exhibits=_exhibits(found, evidence.added, case.formulas),
+        held_out="holdout" if others else "last 30 %",
+        references=references(found, case.together, scales),
+        made_with=made_with,
+        heading=case.heading,
+        at_rest=at_rest(found),
+        formulas=case.formulas,
+    )
+    return and_magnetometer(closed, magnetometer, case.together)
+
+
+@dataclass(frozen=True, eq=False)
+class _Settled:
+    """What was ``found`` of a part's sensors in logs to fit and ``others`` to judge by, once it is
+    settled; ``fitting`` are the sensors whose reference fits, and the ``model`` has the ``noises``.
+    """
+
+    start: Part
+    declared: Part | None
+    logs: list[Recording]
+    others: list[Recording]
+    found: Found
+    fitting: Found
+    model: Model
+    noises: dict[str, Noise]
+    looks: Mapping[str, Look]
+    magnetometer: Examined | str
+    quality: tuple
+
+    @property
+    def together(self) -> list[Recording]:
+        return [*self.logs, *self.others]
+
+    @cached_property
+    def heading(self) -> tuple[float, float] | None:
+        return heading_rms(self.found.get("gyro"))
+
+    @cached_property
+    def formulas(self) -> tuple[Formula, ...]:
+        return _kept(self.looks.values(), self.found)
+
+
+def _evidence(
+    case: _Settled,
+    added: list[Added],
+    changed: list[Changed],
+    drift: dict[str, dict[int, float]],
+    errors: dict[str, Errors],
+    entries: tuple[LogEntry, ...],
+    attitude: tuple[float, float] | None,
+    lost: tuple[str, ...],
+) -> Evidence:
+    """What the verdict goes by."""
+    found, noises, quality, rounded = case.found, case.noises, case.quality, _rounded(case.found)
+    clocks = undone(quality), or_gain(quality), taken_out(found, case.heading)
+    return Evidence(
         examined=tuple(found),
-        unexamined=_unexamined(found, logs, quality),
-        unfit=another,
+        unexamined=_unexamined(found, case.logs, quality),
+        unfit=unfit(found),
         shows=shows_anything(found),
         rows=rows_fitted(found),
         added=tuple(added),
         changed=tuple(changed),
-        unexplained=_unexplained(rounded, looks, noises),
+        unexplained=_unexplained(rounded, case.looks, noises),
         dead=_dead(found, quality),
         rounded=bool(rounded),
-        drift=drifts,
+        drift=drift,
         refused=_refused(found, noises),
-        fates=tuple(f for k, inv in fitting.items() for f in _fates(k, inv, added, noises[k])),
+        fates=tuple(f for k, inv in case.fitting.items() for f in _fates(k, inv, added, noises[k])),
         errors=errors,
-        by_log={r.name: e.errors for r, e in zip(together, entries, strict=True)},
+        by_log={r.name: e.errors for r, e in zip(case.together, entries, strict=True)},
         band_hz={kind: inv.after.trials[0].band_hz for kind, inv in found.items()},
-        beside=of_magnetometer(magnetometer, declared is not None),
+        beside=of_magnetometer(case.magnetometer, case.declared is not None),
         attitude=attitude,
         lost=lost,
         ranges=(*beyond(quality), *set_to_zero(quality, [(a.sensor, a.effect) for a in added])),
-        clocks=tuple(filter(None, (undone(quality), or_gain(quality), taken_out(found, heading)))),
-        formulas={f.name: f.said for f in formulas},
+        clocks=tuple(filter(None, clocks)),
+        formulas={f.name: f.said for f in case.formulas},
         unshown=_unshown(found),
     )
-    say("the whole model, and what to measure next")
-    whole = estimated(start, model.after, fitting, added, noises)
-    whole += magnetic(start, model.after, magnetometer)
+
+
+def _model_shown(case: _Settled, evidence: Evidence) -> dict[str, Any]:
+    """The model before and after that a result shows, what the logs say of its coefficients, and
+    which measurement would say more.
+    """
+    start, fitting, after = case.start, case.fitting, case.model.after
+    whole = estimated(start, after, fitting, evidence.added, case.noises)
+    whole += magnetic(start, after, case.magnetometer)
     seen = tuple(v for kind, inv in fitting.items() for v in visibility(kind, inv))
-    silent = {**evidence.unexamined, **{k: inv.unfit for k, inv in found.items() if inv.unfit}}
-    closed = Closed(
-        **_shown(evidence, together),
-        before=model.before,
-        after=as_part(model.after, whole, declared, silent),
-        observability=seen,
-        log_likelihood=likelihood,
-        quality=quality,
-        recordings=_with_overviews(entries, together, found, quality),
-        exhibits=_exhibits(found, added, formulas),
-        held_out="holdout" if others else "last 30 %",
-        estimated=whole,
-        references=references(found, together, scales),
-        next=advice(fitting, whole, seen, logs, silent, not others),
-        made_with=made_with,
-        heading=heading,
-        at_rest=at_rest(found),
-        formulas=formulas,
-    )
-    return and_magnetometer(closed, magnetometer, together)
+    unfitting = {k: inv.unfit for k, inv in case.found.items() if inv.unfit}
+    silent = {**evidence.unexamined, **unfitting}
+    return {
+        "before": case.model.before,
+        "after": as_part(after, whole, case.declared, silent),
+        "estimated": whole,
+        "observability": seen,
+        "next": advice(fitting, whole, seen, case.logs, silent, not case.others),
+    }
 
 
 def _shown(e: Evidence, logs: list[Recording]) -> dict[str, Any]:
@@ -214,22 +273,20 @@ def _kept(looks: Iterable[Look], found: Found) -> tuple[Formula, ...]:
 
 
 def _findings(
-    start: Part,
-    declared: Part | None,
-    found: Found,
-    model: Model,
-    noises: dict[str, Noise],
-    say: Callable[[str], None],
+    case: _Settled, say: Callable[[str], None]
 ) -> tuple[list[Added], list[Changed], dict[str, dict[int, float]]]:
     """The effects that were added, the values that changed, and the axes that wander, by sensor."""
     added, changed, drifts = [], [], {}
-    for kind, inv in found.items():
+    for kind, inv in case.fitting.items():
         say(f"{kind}: what is left")
-        added += _added(kind, model.after.sensor(kind), inv) + [*model.rounding[kind].added]
-        added += noises[kind].added
-        changed += [released(start.sensor(kind), inv.after, s) for s in inv.steps if s.declared]
-        changed += noises[kind].changed
-        drifts |= {kind: dict(noises[kind].drift)} if noises[kind].drift else {}
+        noise = case.noises[kind]
+        added += _added(kind, case.model.after.sensor(kind), inv)
+        added += [*case.model.rounding[kind].added, *noise.added]
+        changed += [
+            released(case.start.sensor(kind), inv.after, s) for s in inv.steps if s.declared
+        ]
+        changed += noise.changed
+        drifts |= {kind: dict(noise.drift)} if noise.drift else {}
     return added, changed, drifts
 
 
@@ -303,7 +360,7 @@ def _no_force(logs: list[Recording]) -> str:
 
 
 def _exhibits(
-    found: Found, added: list[Added], formulas: tuple[Formula, ...]
+    found: Found, added: Sequence[Added], formulas: tuple[Formula, ...]
 ) -> dict[str, Exhibits]:
     return {
         kind: exhibits_of(inv, [a for a in added if a.sensor == kind], formulas)
