@@ -128,49 +128,54 @@ def plan_command(
     tell(planned.report, text_of(out / "plan.json"), lines, as_json=as_json, quiet=quiet)
 
 
+Units = Annotated[
+    str,
+    typer.Option(
+        "--fmu",
+        help="Which, separated by commas: sensor, ukf, hidalgo2012, heading, rover, low-pass, ins.",
+    ),
+]
+Forms = Annotated[
+    str,
+    typer.Option(
+        "--fmi", help="Which forms, separated by commas: 2, 3, block (FMI 3, many samples a step)."
+    ),
+]
+Platform = Annotated[
+    str,
+    typer.Option("--platform", help="host, or with the package ziglang all, or one by name."),
+]
+Specimen = Annotated[
+    int | None,
+    typer.Option(
+        "--specimen",
+        metavar="SEED",
+        help="Draw one specimen from the part's tolerances; the sensor starts at its values.",
+    ),
+]
+Drive = Annotated[
+    str | None,
+    typer.Option(
+        "--ssp",
+        metavar="DRIVE",
+        help="Also Rover.ssp, the system of drive, sensor, low-pass and filter: straight, "
+        "obstacle, ackermann, turn_on_spot or free.",
+        show_default=False,
+    ),
+]
+
+
 def build(
     part: PartName,
     out: Out = Path("out/fmus"),
-    fmu: Annotated[
-        str,
-        typer.Option(
-            "--fmu",
-            help="Which, separated by commas: sensor, ukf, hidalgo2012, heading, rover, low-pass, "
-            "ins.",
-        ),
-    ] = "sensor,ukf",
-    fmi: Annotated[
-        str,
-        typer.Option(
-            "--fmi",
-            help="Which forms, separated by commas: 2, 3, block (FMI 3, many samples a step).",
-        ),
-    ] = "2,3,block",
-    platform: Annotated[
-        str,
-        typer.Option("--platform", help="host, or with the package ziglang all, or one by name."),
-    ] = "host",
-    specimen: Annotated[
-        int | None,
-        typer.Option(
-            "--specimen",
-            metavar="SEED",
-            help="Draw one specimen from the part's tolerances; the sensor starts at its values.",
-        ),
-    ] = None,
+    fmu: Units = "sensor,ukf",
+    fmi: Forms = "2,3,block",
+    platform: Platform = "host",
+    specimen: Specimen = None,
     effects: Effects = None,
     as_json: Json = False,
     quiet: Quiet = False,
-    ssp: Annotated[
-        str | None,
-        typer.Option(
-            "--ssp",
-            metavar="DRIVE",
-            help="Also Rover.ssp, the system of drive, sensor, low-pass and filter: straight, "
-            "obstacle, ackermann, turn_on_spot or free.",
-            show_default=False,
-        ),
-    ] = None,
+    ssp: Drive = None,
 ) -> None:
     """Example: pyimu build imt30 --out out/fmus
 

@@ -234,12 +234,7 @@ def effect(
 
     def define(function: Callable) -> Effect:
         name = function.__name__
-        if stage not in STAGES:
-            raise ValueError(
-                f"effect {name}: unknown stage {stage!r}, not one of {', '.join(STAGES)}"
-            )
-        for kind in sensors:
-            _known(name, "sensor", kind, KINDS)
+        _check(name, stage, sensors)
         return Effect(
             name=name,
             stage=stage,
@@ -268,6 +263,14 @@ def effect(
         )
 
     return define
+
+
+def _check(name: str, stage: str, sensors: tuple[str, ...]) -> None:
+    """Raises ValueError for an unknown stage, UserError for an unknown kind of sensor."""
+    if stage not in STAGES:
+        raise ValueError(f"effect {name}: unknown stage {stage!r}, not one of {', '.join(STAGES)}")
+    for kind in sensors:
+        _known(name, "sensor", kind, KINDS)
 
 
 def _arguments(name: str, function: Callable) -> dict[str, Any]:
