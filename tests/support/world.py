@@ -162,89 +162,93 @@ def last(function):
     return function
 
 
+SPREAD = np.array([1.0, -0.7, 0.5])
+"""Of an effect's size over the axes."""
+
+
 def changes(world: World, kind: str) -> dict:
     """One undeclared effect each: name in the catalogue -> size -> change of the clean signal."""
-    f, temp, h = world.force, world.temperature, world.h
-    spread = np.array([1.0, -0.7, 0.5])
+    own = {"accel": _of_accelerometers, "gyro": _of_gyros}
+    return _of_any_sensor(world) | _of_temperature(world) | own[kind](world)
 
-    def delayed(d):
-        return lambda v: np.column_stack(
-            [_filtered(v[:, i], h, lambda w: np.exp(-1j * w * d)) for i in range(3)]
-        )
 
-    def second_order(wn, zeta=0.6):
-        return lambda v: np.column_stack(
-            [
-                _filtered(v[:, i], h, lambda w: wn**2 / (wn**2 - w**2 + 2j * zeta * wn * w))
-                for i in range(3)
-            ]
-        )
-
-    table = {
-        "scale_factor": lambda s: lambda v: v * (1 + s * spread),
-        "misalignment": lambda s: (
-            lambda v: v + s * np.roll(v, 1, axis=1) * np.array([1.0, -0.5, 0.3])
-        ),
-        "thermal_bias": lambda s: lambda v: v + s * spread * (temp - 25)[:, None],
-        "thermal_bias_quadratic": lambda s: lambda v: v + s * spread * ((temp - 25) ** 2)[:, None],
-        "scale_factor_asymmetry": lambda s: lambda v: v + s * spread * np.abs(v),
-        "time_delay": lambda s: delayed(s),
-        "lag": lambda s: second_order(1.0 / s),
+def _of_any_sensor(world: World) -> dict:
+    """What the output depends on by itself."""
+    h, ones = world.h, np.array([1.0, -0.5, 0.3])
+    return {
+        "scale_factor": lambda s: lambda v: v * (1 + s * SPREAD),
+        "misalignment": lambda s: lambda v: v + s * np.roll(v, 1, axis=1) * ones,
+        "scale_factor_asymmetry": lambda s: lambda v: v + s * SPREAD * np.abs(v),
+        "scale_factor_nonlinearity": lambda s: lambda v: v + s * SPREAD * v**2,
+        "scale_factor_cubic": lambda s: lambda v: v + s * SPREAD * v**3,
+        "time_delay": lambda s: lambda v: _filtered(v, h, lambda w: np.exp(-1j * w * s)),
+        "lag": lambda s: lambda v: _filtered(v, h, _second_order(1.0 / s)),
         "saturation": lambda s: last(lambda v: np.clip(v, -s, s)),
         "quantization": lambda s: last(lambda v: np.round(v / s) * s),
     }
-    rising, steady = np.gradient(temp, h), np.roll(spread, 1)
-    table |= {
-        "scale_factor_nonlinearity": lambda s: lambda v: v + s * spread * v**2,
-        "scale_factor_cubic": lambda s: lambda v: v + s * spread * v**3,
-        "thermal_scale_factor": lambda s: lambda v: v * (1 + s * spread * (temp - 25)[:, None]),
-        "thermal_misalignment": lambda s: (
-            lambda v: v + s * (temp - 25)[:, None] * np.roll(v, 1, axis=1) * spread
-        ),
-        "thermal_bias_cubic": lambda s: lambda v: v + s * spread * ((temp - 25) ** 3)[:, None],
-        "temperature_rate": lambda s: lambda v: v + s * spread * rising[:, None],
+
+
+def _of_temperature(world: World) -> dict:
+    warmer = (world.temperature - 25)[:, None]
+    rising = np.gradient(world.temperature, world.h)[:, None]
+    return {
+        "thermal_bias": lambda s: lambda v: v + s * SPREAD * warmer,
+        "thermal_bias_quadratic": lambda s: lambda v: v + s * SPREAD * warmer**2,
+        "thermal_bias_cubic": lambda s: lambda v: v + s * SPREAD * warmer**3,
+        "thermal_scale_factor": lambda s: lambda v: v * (1 + s * SPREAD * warmer),
+        "thermal_misalignment": lambda s: lambda v: v + s * warmer * np.roll(v, 1, axis=1) * SPREAD,
+        "temperature_rate": lambda s: lambda v: v + s * SPREAD * rising,
     }
-    if kind == "accel":
-        turned = np.gradient(world.rate, h, axis=0)
-        arms = np.array([[1.0, 0.3, -0.5], [-0.7, 0.2, 1.0], [0.4, -1.0, 0.6]])
 
-        def lever(s):
-            felt = [
-                np.cross(turned, s * r) + np.cross(world.rate, np.cross(world.rate, s * r))
-                for r in arms
-            ]
-            return lambda v: v + np.column_stack([felt[i][:, i] for i in range(3)])
 
-        table["size_effect"] = lever
-        table["vibropendulous"] = lambda s: lambda v: v + s * v * (np.roll(v, 1, axis=1) * steady)
-    if kind == "gyro":
-        turned = np.gradient(world.rate, h, axis=0)
-        table |= {
-            "anisoinertia": lambda s: (
-                lambda v: v + s * spread * np.roll(v, 1, axis=1) * np.roll(v, 2, axis=1)
-            ),
-            "scale_factor_g_sensitivity": lambda s: (
-                lambda v: v + s * v * np.roll(f, 1, axis=1) * spread
-            ),
-            "g2_sensitivity": lambda s: (
-                lambda v: (
-                    v + s * np.column_stack([f[:, 0] * f[:, 1], f[:, 2] ** 2, f[:, 1] * f[:, 2]])
-                )
-            ),
-            "angular_acceleration": lambda s: lambda v: v + s * np.roll(turned, 1, axis=1) * spread,
-        }
-        matrix = np.array([[1.0, 0.2, 0.0], [-0.4, 0.5, 0.3], [0.1, 0.0, -0.8]])
-        table["g_sensitivity"] = lambda s: lambda v: v + f @ (s * matrix).T
-    return table
+def _of_accelerometers(world: World) -> dict:
+    turned = np.gradient(world.rate, world.h, axis=0)
+    arms = np.array([[1.0, 0.3, -0.5], [-0.7, 0.2, 1.0], [0.4, -1.0, 0.6]])
+    steady = np.roll(SPREAD, 1)
+
+    def lever(s):
+        felt = [
+            np.cross(turned, s * r) + np.cross(world.rate, np.cross(world.rate, s * r))
+            for r in arms
+        ]
+        return lambda v: v + np.column_stack([felt[i][:, i] for i in range(3)])
+
+    return {
+        "size_effect": lever,
+        "vibropendulous": lambda s: lambda v: v + s * v * (np.roll(v, 1, axis=1) * steady),
+    }
+
+
+def _of_gyros(world: World) -> dict:
+    f, turned = world.force, np.gradient(world.rate, world.h, axis=0)
+    squares = np.column_stack([f[:, 0] * f[:, 1], f[:, 2] ** 2, f[:, 1] * f[:, 2]])
+    matrix = np.array([[1.0, 0.2, 0.0], [-0.4, 0.5, 0.3], [0.1, 0.0, -0.8]])
+    return {
+        "anisoinertia": lambda s: (
+            lambda v: v + s * SPREAD * np.roll(v, 1, axis=1) * np.roll(v, 2, axis=1)
+        ),
+        "scale_factor_g_sensitivity": lambda s: (
+            lambda v: v + s * v * np.roll(f, 1, axis=1) * SPREAD
+        ),
+        "g2_sensitivity": lambda s: lambda v: v + s * squares,
+        "angular_acceleration": lambda s: lambda v: v + s * np.roll(turned, 1, axis=1) * SPREAD,
+        "g_sensitivity": lambda s: lambda v: v + f @ (s * matrix).T,
+    }
+
+
+def _second_order(wn: float, zeta: float = 0.6):
+    """The response of a filter of natural frequency ``wn`` rad/s."""
+    return lambda w: wn**2 / (wn**2 - w**2 + 2j * zeta * wn * w)
 
 
 def _filtered(values: np.ndarray, h: float, response) -> np.ndarray:
-    """A continuous filter ``response(omega)`` through the spectrum of the signal, mirrored at its
-    end so that it joins up.
+    """A continuous filter ``response(omega)`` of signals (n, 3) through their spectra, mirrored at
+    their end so that they join up.
     """
     mirrored = np.concatenate([values, values[::-1]])
-    omega = 2 * np.pi * np.fft.rfftfreq(len(mirrored), h)
-    return np.fft.irfft(np.fft.rfft(mirrored) * response(omega), len(mirrored))[: len(values)]
+    gain = response(2 * np.pi * np.fft.rfftfreq(len(mirrored), h))[:, None]
+    back = np.fft.irfft(np.fft.rfft(mirrored, axis=0) * gain, len(mirrored), axis=0)
+    return back[: len(values)]
 
 
 def size_for(world: World, kind: str, name: str, wanted: float, structure: bool) -> float:
