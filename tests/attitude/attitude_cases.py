@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial.transform import Rotation
+from turns import turned
 
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
@@ -83,18 +84,14 @@ class Drive:
 
 def drive(rate: np.ndarray, start: Rotation | None = None, latitude: float | None = None) -> Drive:
     """A body that turns in place by ``rate`` (n, 3) rad/s, each row held for one period."""
-    quaternions, q = [], start or Rotation.identity()
-    for turn in Rotation.from_rotvec(rate * H):
-        q = q * turn
-        quaternions.append(q.as_quat())
-    attitude = Rotation.from_quat(quaternions)
+    before_and_after = turned(Rotation.from_rotvec(rate * H), start)
+    before, attitude = before_and_after[:-1], before_and_after[1:]
     force = attitude.apply([0, 0, GRAVITY], inverse=True)
     earth = (
         np.zeros(3)
         if latitude is None
         else EARTH * np.array([0, np.cos(latitude), np.sin(latitude)])
     )
-    before = Rotation.concatenate([start or Rotation.identity(), attitude[:-1]])
     return Drive(rate, attitude, force, rate + before.apply(earth, inverse=True))
 
 

@@ -19,6 +19,7 @@ from attitude_cases import (
 )
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
+from turns import turned
 
 from pyimu.attitude import attitude_ukf, run
 from pyimu.attitude.columns import NOMINAL_AXES_STD
@@ -52,12 +53,7 @@ def vehicle(rows: int = ROWS) -> tuple[Drive, np.ndarray]:
     rate = np.zeros((rows, 3))
     rate[:, 2] = 0.3 * np.sin(2 * np.pi * t / 33)
     rate[:, 1] = 0.1 * 2 * np.pi / 25 * np.sin(2 * np.pi * t / 25)
-    turns = Rotation.from_rotvec(rate * H)
-    attitude, q = [], Rotation.identity()
-    for turn in turns:
-        q = q * turn
-        attitude.append(q.as_quat())
-    attitude = Rotation.from_quat(attitude)
+    attitude = turned(Rotation.from_rotvec(rate * H))[1:]
     # f = v' + w x v + R^T g, with v the mean speed of the period along x.
     forward = np.column_stack([speed - along * H / 2, 0 * t, 0 * t])
     force = np.column_stack([along, 0 * t, 0 * t]) + np.cross(rate, forward)

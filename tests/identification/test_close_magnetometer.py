@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from scipy.stats import binom, chi2
+from turns import turned
 
 import pyimu
 from pyimu import Recording
@@ -45,10 +46,7 @@ def attitudes(seed: int, rows: int, axes=(1.0, 1.0, 1.0)) -> tuple[np.ndarray, R
     rng, t = np.random.default_rng(seed), np.arange(rows)[:, None, None] / RATE
     omega, phase = rng.uniform(0.3, 1.5, (3, 3)), rng.uniform(0, 2 * np.pi, (3, 3))
     rate = np.asarray(axes) * np.sum(0.7 * np.sin(omega * t + phase), axis=2)
-    steps, turned = Rotation.from_rotvec(rate / RATE), [Rotation.from_euler("z", 0.4)]
-    for step in steps[1:]:
-        turned.append(turned[-1] * step)
-    return rate, Rotation.concatenate(turned)
+    return rate, turned(Rotation.from_rotvec(rate[1:] / RATE), Rotation.from_euler("z", 0.4))
 
 
 def log(seed: int, rows: int = 4000, field=FIELD, late: float = 0.0, name: str = "log", **more):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
+from turns import turned
 
 import pyimu
 from pyimu.identification.fit.trial import gyro_trial
@@ -25,11 +26,7 @@ def hand(seed: int, rests: bool) -> tuple[np.ndarray, np.ndarray, Rotation]:
     time = np.arange(count) / RATE
     if rests:
         rate *= (time % 20.0 > 8.0)[:, None]
-    step = Rotation.from_rotvec(0.5 * (rate[1:] + rate[:-1]) / RATE)
-    q = [Rotation.identity()]
-    for s in step:
-        q.append(q[-1] * s)
-    return time, rate, Rotation.concatenate(q)
+    return time, rate, turned(Rotation.from_rotvec(0.5 * (rate[1:] + rate[:-1]) / RATE))
 
 
 def fused(gyro: np.ndarray, true: Rotation, gain: float) -> Rotation:

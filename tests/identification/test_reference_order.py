@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
+from turns import turned
 
 from pyimu.identification.reference.order import other_order
 from pyimu.recording.angles import angles_of, of_angles
@@ -21,10 +22,9 @@ def hand(seed=3, size=60.0):
     rng, count = np.random.default_rng(seed), int(RATE * SECONDS)
     rate = gaussian_filter1d(rng.standard_normal((count, 3)), 8.0, axis=0)
     rate *= np.radians(size) / rate.std()
-    q = [Rotation.from_euler("ZYX", [0.7, 0.1, -0.1])]
-    for step in Rotation.from_rotvec(0.5 * (rate[1:] + rate[:-1]) / RATE):
-        q.append(q[-1] * step)
-    return np.arange(count) / RATE, rate, Rotation.concatenate(q)
+    steps = Rotation.from_rotvec(0.5 * (rate[1:] + rate[:-1]) / RATE)
+    first = Rotation.from_euler("ZYX", [0.7, 0.1, -0.1])
+    return np.arange(count) / RATE, rate, turned(steps, first)
 
 
 def beside(time, rate, q, stated):

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import raw_logs
 from scipy.spatial.transform import Rotation
+from turns import turned as attitudes
 
 from pyimu import Recording, inspect, read_recording
 from pyimu.errors import UserError
@@ -373,12 +374,9 @@ def test_counts_of_a_gyro_that_is_turned_fast(seed):
         np.sin(np.outer(time, 2 * np.pi * r) + p) for r, p in zip(rates, phases, strict=True)
     )
     gyro = gyro * np.clip(time - 2, 0, 1)[:, None]
-    steps = Rotation.from_rotvec(0.005 * (gyro[1:] + gyro[:-1]))
-    turned = [Rotation.identity()]
-    for step in steps:
-        turned.append(turned[-1] * step)
+    attitude = attitudes(Rotation.from_rotvec(0.005 * (gyro[1:] + gyro[:-1])))
     push = np.sin(np.outer(time, [7.0, 5.0, 9.0])) * [1.2, 0.7, 0.4]
-    accel = Rotation.concatenate(turned).inv().apply(push + [0, 0, 9.81])
+    accel = attitude.inv().apply(push + [0, 0, 9.81])
     assert rate_unit(np.round(np.degrees(gyro) * 131), accel, 0.01).value == 1 / 131
 
 
