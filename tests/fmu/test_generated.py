@@ -3,6 +3,7 @@ FMUs made of them are right.
 """
 
 import re
+import shutil
 from difflib import unified_diff
 from itertools import islice
 
@@ -18,7 +19,7 @@ from pyimu.attitude import attitude_ukf
 from pyimu.block.cost import operations
 from pyimu.fmu import simulate, simulate_blocks
 from pyimu.fmu.arrays import split_name
-from pyimu.fmu.generate import checked_in, digest, generate, generated_folder, reference_blocks
+from pyimu.fmu.generate import digest, generate, generated_folder, reference_blocks
 from pyimu.fmu.variables import most_samples
 from pyimu.model.part_file import part
 
@@ -59,9 +60,16 @@ def difference(name, old, new):
     return list(islice(lines, SHOWN))
 
 
-def test_checked_in_texts_are_fresh(tmp_path):
-    generate(tmp_path)
-    have, want = texts_in(generated_folder()), texts_in(tmp_path)
+@pytest.fixture(scope="module")
+def generated(tmp_path_factory):
+    """The texts that today's definitions give; nobody may change them."""
+    folder = tmp_path_factory.mktemp("generated")
+    assert len(generate(folder)) == 12 * len(reference_blocks())
+    return folder
+
+
+def test_checked_in_texts_are_fresh(generated):
+    have, want = texts_in(generated_folder()), texts_in(generated)
     assert have, "nothing is checked in: make generate"
     wrote, writes = (minor_version(t["ImuSensor/step.c"]) for t in (have, want))
     if wrote != writes:
@@ -89,27 +97,25 @@ def test_difference_is_shown_line_by_line():
     assert comparable(token % "ac") == comparable(token % "0b") != comparable(token % "zz")
 
 
-def test_generated_twice_is_the_same_to_the_byte(tmp_path):
-    first, again = (
-        [p.read_bytes() for p in generate(tmp_path / name)] for name in ("first", "again")
-    )
-    assert first == again and len(first) == 12 * len(reference_blocks())
-
-
-def test_only_what_changed_is_written(tmp_path):
-    """And told; what is generated no more goes."""
-    generate(tmp_path)
-    table, left_over = tmp_path / "ImuSensor" / "model_table.h", tmp_path / "ImuSensor" / "old.c"
+def test_only_what_changed_is_written(generated, tmp_path):
+    """And told; what is generated no more goes, and all is as it was to the byte."""
+    again = shutil.copytree(generated, tmp_path / "again")
+    table, left_over = again / "ImuSensor" / "model_table.h", again / "ImuSensor" / "old.c"
     table.write_text("edited")
     left_over.write_text("")
-    assert generate(tmp_path) == [table, left_over]
-    assert not left_over.exists() and generate(tmp_path) == []
+    assert generate(again) == [table, left_over]
+    of_first, of_again = (
+        {p.relative_to(f): p.read_bytes() for p in f.rglob("*") if p.is_file()}
+        for f in (generated, again)
+    )
+    assert of_again == of_first
 
 
-def test_an_unreadable_text_is_checked_in_by_its_digest():
+def test_an_unreadable_text_is_checked_in_by_its_digest(generated):
     """Which follows from every line of it but casadi's patch level."""
-    text = checked_in()["AttitudeUkf/step.c.sha256"]
-    assert re.fullmatch(r"[0-9a-f]{64}\n", text) and "AttitudeUkf/step.c" not in checked_in()
+    texts = texts_in(generated)
+    assert re.fullmatch(r"[0-9a-f]{64}\n", texts["AttitudeUkf/step.c.sha256"])
+    assert "AttitudeUkf/step.c" not in texts
     of = {"patch": "  *patch = 2;\n", "other patch": "  *patch = 11;\n", "number": "  a0=2;\n"}
     digests = {name: digest(f"int step;\n{line}") for name, line in of.items()}
     assert digests["patch"] == digests["other patch"] != digests["number"]
