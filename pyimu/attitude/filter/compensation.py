@@ -88,6 +88,12 @@ class Compensation:
     now: bool = True
 
     @property
+    def structure(self) -> tuple:
+        """All that the equations depend on: the coefficients of the effects are parameters."""
+        part = self.part
+        return part.gyro.effects, part.accel.effects, part.sample_rate, self.now
+
+    @property
     def shows_now(self) -> bool:
         """Whether the estimate is not of now, and what is shown of it shall be."""
         return self.now and tells_instant(self.part.gyro)

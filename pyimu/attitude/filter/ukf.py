@@ -59,6 +59,7 @@ from pyimu.attitude.filter.updates import (
 from pyimu.block.block import Block
 from pyimu.block.plain import plain_function
 from pyimu.block.prepared import Prepared, taken_apart
+from pyimu.block.structured import Structured
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
 from pyimu.symbolic import quaternion
@@ -87,7 +88,7 @@ def attitude_ukf(part: Part, shows_now: bool = True) -> Block:
 def _of(part: Part, shows_now: bool, *effects: tuple[Effect, ...]) -> Block:
     """The filter of a part with these ``effects``: parts are equal where their numbers are."""
     layout = Layout(Compensation(part, shows_now))
-    return filter_block("AttitudeUkf", "Unscented attitude filter", layout, _step(layout))
+    return filter_block("AttitudeUkf", "Unscented attitude filter", layout, _step_of(layout))
 
 
 def recorded_ukf(part: Part) -> Block:
@@ -101,12 +102,18 @@ def recorded_ukf(part: Part) -> Block:
 @lru_cache(maxsize=16)
 def _recorded(part: Part, *effects: tuple[Effect, ...]) -> Block:
     layout, title = Layout(Compensation(part, False)), "Unscented attitude filter, recorded"
-    step = _step(layout, recorded=True)
+    step = _step_of(layout, recorded=True)
     return filter_block("AttitudeRecorded", title, layout, step, PASSED)
 
 
-def _step(layout: Layout, recorded: bool = False) -> Prepared:
+def _step_of(layout: Layout, recorded: bool = False) -> Prepared:
     """The step of the filter; its outputs are those of the unit, or all that a smoother needs."""
+    return _step(Structured(layout.compensation.structure, layout), recorded)
+
+
+@lru_cache(maxsize=16)
+def _step(made: Structured[Layout], recorded: bool) -> Prepared:
+    layout = made.of
     s, _, p, h = symbols = layout.symbols(ca.MX, "s u p h")
     constants, predict = _predict(layout, recorded)
     u, c = inputs_of_the_sample(layout, symbols), ca.MX.sym("c", constants.numel_out(0))

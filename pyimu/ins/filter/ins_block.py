@@ -13,6 +13,7 @@ from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.updates import where
 from pyimu.block.block import Block
 from pyimu.block.plain import plain_function
+from pyimu.block.structured import Structured
 from pyimu.block.variables import Variable
 from pyimu.ins.filter import prediction, updates
 from pyimu.ins.filter import start as beginning
@@ -98,7 +99,7 @@ def _block(layout: Layout, recorded: bool, constrained: bool) -> Block:
             "Attitude, velocity and position by strapdown integration, with zero-velocity and "
             f"zero-angular-rate updates, for the part {part.name}{left_in_words(part)}"
         ),
-        step=_step(layout, recorded),
+        step=_step(Structured(layout.structure, layout), recorded),
         initial=plain_function("initial", [u, p], [state, shown], ["u", "p"], ["s", "y"]),
         inputs=layout.inputs,
         parameters=parameters,
@@ -119,7 +120,9 @@ def _recorded_names(layout: Layout) -> tuple[Variable, ...]:
     return tuple(Variable(f"{name}[{i + 1}]") for name, size in sizes.items() for i in range(size))
 
 
-def _step(layout: Layout, recorded: bool) -> ca.Function:
+@lru_cache(maxsize=16)
+def _step(made: Structured[Layout], recorded: bool) -> ca.Function:
+    layout = made.of
     sizes = {"s": layout.state, "u": len(layout.inputs), "p": len(layout.parameters), "h": 1}
     s, u, p, h = (ca.MX.sym(name, size) for name, size in sizes.items())
     x, memory, rate, force, status, rest, unturned, transition = _predict(layout)(s, u, p, h)

@@ -122,6 +122,12 @@ class Layout:
     lasting: bool = False
     wheels: bool = False
 
+    @property
+    def structure(self) -> tuple:
+        """All that the equations depend on: the coefficients of the effects are parameters."""
+        flags = self.nhc, self.detects, self.mounting_std, self.lasting, self.wheels
+        return self.compensation.structure, self.gains, flags
+
     @cached_property
     def compensation(self) -> Compensation:
         return Compensation(self.part, now=False)
