@@ -20,19 +20,23 @@ RUNS = 40
 
 @pytest.fixture(scope="module")
 def runs_of_noise():
-    """Filter and smoother over runs with white noise alone, whose turn-on biases are drawn from the
-    standard deviations with which the filter starts."""
+    """Filter and smoother over the first so many runs with white noise alone, whose turn-on biases
+    are drawn from the standard deviations with which the filter starts; each is made once."""
     part, drive = white(calibrated()), replace(SHORT, vibration=0.0)
     truth = declared(perfect(drive, 50.0), drive)
     rng, found = np.random.default_rng(1), []
     settings = {f"gyro_bias_std0[{i}]": 0.01 for i in (1, 2, 3)}
     settings |= {f"accel_bias_std0[{i}]": 0.1 for i in (1, 2, 3)} | {"zupt_std": 1e-4}
-    for seed in range(RUNS):
-        log = noisy(truth, part, seed)
-        gyro = log.gyro + rng.normal(scale=0.01, size=3)
-        log = replace(log, gyro=gyro, accel=log.accel + rng.normal(scale=0.1, size=3))
-        found.append(run(log, part, method="smoother", settings=settings))
-    return truth, found
+
+    def first(count):
+        for seed in range(len(found), count):
+            log = noisy(truth, part, seed)
+            gyro = log.gyro + rng.normal(scale=0.01, size=3)
+            log = replace(log, gyro=gyro, accel=log.accel + rng.normal(scale=0.1, size=3))
+            found.append(run(log, part, method="smoother", settings=settings))
+        return truth, found[:count]
+
+    return first
 
 
 def mean_bounds(freedom, count):
@@ -54,7 +58,7 @@ def nees(track, truth, row):
 @pytest.mark.parametrize("at", (0.45, 0.7, 1.0))
 def test_the_position_is_as_far_off_as_is_claimed(runs_of_noise, method, at):
     """Mean NEES over the runs, in motion and at the end, within its 99.9 % bounds."""
-    truth, found = runs_of_noise
+    truth, found = runs_of_noise(RUNS)
     row = int(at * (len(truth.time) - 1))
     tracks = [r.filter.track("filter") if method == "filter" else r.tracks[method] for r in found]
     low, high = mean_bounds(2, RUNS)
@@ -63,7 +67,7 @@ def test_the_position_is_as_far_off_as_is_claimed(runs_of_noise, method, at):
 
 @pytest.mark.long
 def test_the_first_zero_velocity_of_a_stop_has_the_right_nis(runs_of_noise):
-    _, found = runs_of_noise
+    _, found = runs_of_noise(RUNS)
     first = np.concatenate([r.first_zupts for r in found])
     assert len(first) == 4 * RUNS
     low, high = mean_bounds(3, len(first))
@@ -73,7 +77,7 @@ def test_the_first_zero_velocity_of_a_stop_has_the_right_nis(runs_of_noise):
 @pytest.mark.long
 def test_zero_rates_have_the_right_nis(runs_of_noise):
     """Those of the last stop, which follow from each other by what little is learnt of the bias."""
-    _, found = runs_of_noise
+    _, found = runs_of_noise(RUNS)
     rows = slice(*found[0].stops[-1])
     nis = np.concatenate([r.filter.scalar("zaru_nis")[rows] for r in found])
     low, high = mean_bounds(3, len(nis))
@@ -81,7 +85,7 @@ def test_zero_rates_have_the_right_nis(runs_of_noise):
 
 
 def test_the_smoother_ends_where_the_filter_does_and_knows_no_less(runs_of_noise):
-    for r in runs_of_noise[1][:5]:
+    for r in runs_of_noise(5)[1]:
         own, back = r.filter.track("filter"), r.tracks["smoother"]
         np.testing.assert_allclose(back.position[-1], own.position[-1], atol=1e-12)
         # the attitude's share goes with the position, and each has its own estimate of that
@@ -104,7 +108,7 @@ def test_the_smoother_does_not_show_where_its_segments_are_cut(monkeypatch):
 
 
 def test_smoothing_lowers_the_error_along_the_path(runs_of_noise):
-    truth, found = runs_of_noise
+    truth, found = runs_of_noise(12)
     place = np.column_stack([truth.ref_east, truth.ref_north])
 
     def rms(track):
@@ -117,7 +121,7 @@ def test_smoothing_lowers_the_error_along_the_path(runs_of_noise):
 def test_a_rest_does_not_tell_a_tilt_from_a_bias(runs_of_noise):
     """Over 5 s at rest the horizontal bias stays as unknown as it was but for what the tilt's prior
     says (0.3 rad is 2.9 m/s^2), whatever the noise."""
-    truth, found = runs_of_noise
+    truth, found = runs_of_noise(5)
     row = int(np.argmax(truth.moving > 0)) - 5
     std = np.array([r.filter.vector("accel_bias_std")[row] for r in found])
     want = 1 / np.hypot(1 / 0.1, 1 / (0.3 * 9.80665))
