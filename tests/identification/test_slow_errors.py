@@ -9,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.signal import lfilter
 from scipy.spatial.transform import Rotation
+from turns import turned
 from world import drive, recording
 
 import pyimu
@@ -19,23 +20,25 @@ from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 WARMTH = np.array([3e-4, -2e-4, 1e-4])
 """rad/s/K: up to 0.3 deg/s over a log that warms by 18 K, five times what is left otherwise."""
 
+FINER = 8
+"""Samples for one of the log: their mean rates miss a motion of 2.5 Hz by (w h)^2 / 12 = 5e-4."""
+
 
 @pytest.fixture(scope="module")
 def world():
-    """A motion during which the part warms up."""
-    made = drive(minutes=4, seed=12)
+    """A motion of up to 2.5 Hz during which the part warms up."""
+    made = drive(minutes=4, rate_hz=25, seed=12)
     return replace(made, temperature=25.0 + 20.0 * (1.0 - np.exp(-made.time / 90.0)))
 
 
 def against_attitude(world, change, seed: int):
-    """A log of the gyro whose reference is an attitude to 0.3 mrad."""
+    """A log of the gyro whose reference is an attitude to 0.2 mrad."""
     rng = np.random.default_rng(seed)
-    turn, quaternions = Rotation.identity(), np.empty((len(world.time), 4))
-    for k, step in enumerate(Rotation.from_rotvec(world.rate * world.h)):
-        quaternions[k] = turn.as_quat(scalar_first=True)
-        turn = turn * step
-    noise = Rotation.from_rotvec(3e-4 * rng.standard_normal(world.rate.shape))
-    ref_q = (Rotation.from_quat(quaternions, scalar_first=True) * noise).as_quat(scalar_first=True)
+    fine = drive(minutes=4, rate_hz=25 * FINER, seed=12)
+    steps = 0.5 * (fine.rate[1:] + fine.rate[:-1]) * fine.h
+    attitude = turned(Rotation.from_rotvec(steps))[::FINER]
+    noise = Rotation.from_rotvec(2e-4 * rng.standard_normal(world.rate.shape))
+    ref_q = (attitude * noise).as_quat(scalar_first=True)
     log = recording(world, gyro_change=change, seed=seed, kinds=("gyro",))
     return replace(log, ref_rate=None, ref_force=None, ref_q=ref_q)
 
