@@ -16,10 +16,13 @@ import tempfile
 import time
 from collections.abc import Iterable
 from functools import cache
+from itertools import accumulate
 from pathlib import Path
 
-KEPT = 256
-"""Files in the cache folder; beyond that the ones that were used longest ago go."""
+KEPT = 2**28
+"""Bytes of the cache folder; beyond that the files that were used longest ago go. By their number
+the libraries of some hundred small blocks, made in a second each, drove out those of filters,
+which take ten."""
 
 DEAD = 86400.0
 """s; a temporary file that is older was left by a process that was killed."""
@@ -109,7 +112,10 @@ def keep(key: str, data: bytes) -> None:
 
 def _sweep(folder: Path) -> None:
     """Remove what was used longest ago, and what a killed process left."""
-    old = sorted(_files("*.*"), key=lambda path: path.stat().st_mtime)[:-KEPT]
+    files = [(path, path.stat()) for path in _files("*.*")]
+    files.sort(key=lambda file: file[1].st_mtime, reverse=True)
+    sizes = accumulate(about.st_size for _, about in files)
+    old = [path for (path, _), size in zip(files, sizes, strict=True) if size > KEPT]
     left = [p for p in folder.glob("*.tmp") if p.stat().st_mtime < time.time() - DEAD]
     for path in (*old, *left):
         path.unlink(missing_ok=True)
