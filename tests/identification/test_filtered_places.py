@@ -153,7 +153,7 @@ def ringing(force, turn=2.0 * np.pi * 40.0, zeta=0.3):
 
 
 @pytest.mark.parametrize("sensor", ["as it is", "behind a low-pass", "that rings"])
-@pytest.mark.parametrize("seed", [24, 25])
+@pytest.mark.parametrize("seed", [24, pytest.param(25, marks=pytest.mark.long)])
 def test_positions_as_they_were_seen_stay(sensor, seed):
     """A sensor's own low-pass filter damps what positions show, and one that rings raises it by
     less than a filter over positions that is worth a name would lower them."""

@@ -39,7 +39,7 @@ def test_the_last_digit_is_seen_and_the_speeds_that_somebody_set_are_none():
     assert last_digit(np.repeat(np.radians([0.0, 10.0, 20.0, 50.0, 100.0]), 1000)) == 0.0
 
 
-@pytest.mark.parametrize("seed", [12, 23])
+@pytest.mark.parametrize("seed", [12, pytest.param(23, marks=pytest.mark.long)])
 def test_what_rounding_makes_is_no_effect_and_no_noise_that_follows_the_motion(seed):
     closed = pyimu.close(log(seed, DIGIT))
     assert not closed.added and closed.verdict == "clean", closed.report()
@@ -89,7 +89,7 @@ def test_what_rounding_leaves_is_no_noise_of_the_sensor(seed, count, noise):
     assert closed.verdict == "clean" and not closed.added, closed.report()
 
 
-@pytest.mark.parametrize("seed", [41, 42])
+@pytest.mark.parametrize("seed", [41, pytest.param(42, marks=pytest.mark.long)])
 def test_a_drift_beyond_rounding_is_said_all_the_same(seed):
     """A random walk that ends some ten digits away."""
     rounded = log(seed, DIGIT)
