@@ -19,7 +19,6 @@ import numpy as np
 
 from pyimu.attitude.error import root_mean_square
 from pyimu.attitude.filter.variables import USUAL
-from pyimu.model.catalogue import CATALOGUE, read_off
 from pyimu.model.part import Part
 from pyimu.recording.clock import runs
 from pyimu.recording.quality.clipping import clipped
@@ -166,16 +165,15 @@ def by_axis(
     does not tell are drawn as those of other bodies go on (``UNTOLD``), and an axis that has longer
     ones has None.
     """
-    effect, parameter = read_off(CATALOGUE.values(), "ceiling")
-    limits = part.gyro.values.get(effect, {}).get(parameter)
-    if recording.gyro is None or limits is None:
+    limits = part.gyro.clips_from
+    if recording.gyro is None or not np.isfinite(limits).any():
         return recording, [0.0] * 3
     gyro, stds = recording.gyro.copy(), list[float | None]()
     edges = np.array([first for first, _ in recording.segments[1:]], dtype=int)
-    for column, limit in zip(gyro.T, np.broadcast_to(limits, 3), strict=True):
+    for column, limit in zip(gyro.T, limits, strict=True):
         lost = (np.abs(column) >= limit) | clipped(column)
         std: float | None = 0.0
-        if limit > 0 and lost.any():
+        if np.isfinite(limit) and lost.any():
             longest = round(UNTOLD_LONGEST / recording.sample_period) if untold else 0
             column[:], std = _drawn(Axis(column.copy(), float(limit), lost, edges), longest)
         stds.append(std)

@@ -34,7 +34,6 @@ from pyimu.ins.stances import standing
 from pyimu.ins.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
 from pyimu.ins.track import Reference, Track, reference_of
 from pyimu.ins.vibration import Samples, faster
-from pyimu.model.catalogue import CATALOGUE, read_off
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
 from pyimu.recording.clock import runs
@@ -242,12 +241,10 @@ def _clipped(recording: Recording, part: Part, stds: list[float | None], given: 
     """
     turns, pushes = (number(n, given[n]) for n in ("top_turn_rate", "top_acceleration"))
     rates, forces = (np.nanmax(np.abs(s), axis=0) for s in (recording.gyro, recording.accel))
-    effect, parameter = read_off(CATALOGUE.values(), "ceiling")
-    limits = np.broadcast_to(part.accel.values.get(effect, {}).get(parameter, 0.0), 3)
     off = {}
-    for i, (std, limit) in enumerate(zip(stds, limits, strict=True)):
+    for i, (std, limit) in enumerate(zip(stds, part.accel.clips_from, strict=True)):
         off[f"clipped_rate_std[{i + 1}]"] = max(turns, rates[i]) if std is None else std
-        shocks = runs((np.abs(recording.accel[:, i]) >= limit) & (limit > 0))
+        shocks = runs(np.abs(recording.accel[:, i]) >= limit)
         most = max(pushes, forces[i])
         off[f"clipped_force_std[{i + 1}]"] = most * np.sqrt(max(len(shocks), 1))
     return {name: float(value) for name, value in off.items()}

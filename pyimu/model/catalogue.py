@@ -73,8 +73,8 @@ def read_off(effects: Iterable[Effect], what: str) -> tuple[str, str] | None:
     ``what`` is "ceiling" or "step". Gives the names of effect and coefficient, None where there is
     none.
     """
-    found = ((e.name, n) for e in effects for n, q in e.parameters.items() if q.reads == what)
-    return next(found, None)
+    found = ((e.name, e.reading(what)) for e in effects)
+    return next(((name, parameter) for name, parameter in found if parameter is not None), None)
 
 
 def _only(chosen: Callable[[Effect], bool]) -> tuple[str, str]:

@@ -20,6 +20,9 @@ from pyimu.symbolic.missing import is_number, kept
 NEWTON_STEPS = 6
 """Iterations of the symbolic inverse; an error of 0.1 squares to below 1e-16 in five."""
 
+HALF = 0.5 + 1e-6
+"""Of a step: so much rounding may take off an output at its limit, and what a sum is off by."""
+
 
 @dataclass(frozen=True)
 class Slot:
@@ -174,9 +177,13 @@ class Chain:
         started = ca.SX.sym("started") if self.waits else None
         measured = ca.SX.sym("y", 3)
         x, lost, following = measured, ca.SX.zeros(3), {}
+        step = ca.SX.zeros(3)
         for e in reversed(self.effects):
             if e.lost is not None:
-                lost = ca.fmax(lost, e.lost(x, **self.parameters[e.name]))
+                most = x + HALF * step * ca.sign(x) if e.reading("ceiling") else x
+                lost = ca.fmax(lost, e.lost(most, **self.parameters[e.name]))
+            if (name := e.reading("step")) is not None:
+                step = self.parameters[e.name][name]
             if e.invertible:
                 x = self._invert(e, x, started)
             elif e.restore is not None:

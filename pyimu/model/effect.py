@@ -159,6 +159,10 @@ class Effect:
         """
         return not self.invertible and self.lost is None
 
+    def reading(self, what: str) -> str | None:
+        """Name of its coefficient that is read off raw samples as ``what``; None without."""
+        return next((n for n, q in self.parameters.items() if q.reads == what), None)
+
     @property
     def differences(self) -> bool:
         """True where the effect follows from the difference of successive inputs.

@@ -162,6 +162,18 @@ class Sensor:
         return read_off(self.effects, what)
 
     @property
+    def clips_from(self) -> np.ndarray:
+        """The size (3,) from which on an output is at the sensor's limit, infinite without one.
+
+        The rounding that follows may have taken half a step off the limit.
+        """
+        limit, step = (
+            np.zeros(3) if found is None else np.broadcast_to(self.values[found[0]][found[1]], 3)
+            for found in (self.reading("ceiling"), self.reading("step"))
+        )
+        return np.where(limit > 0, limit - step / 2, np.inf)
+
+    @property
     def left_in(self) -> tuple[str, ...]:
         """Names of the acting effects that ``compensation`` neither inverts nor marks."""
         return tuple(e.name for e in self.effects if e.left_in and self.acts(e.name))

@@ -33,7 +33,7 @@ from pyimu.model.kinds import KINDS, OWN_RATE
 from pyimu.model.part import Part
 from pyimu.model.part_file import load_part, save_part
 from pyimu.model.sensor import Sensor, candidates
-from pyimu.model.signals import COLUMNS, SIGNALS, inputs_of
+from pyimu.model.signals import COLUMNS, N_INPUT, SIGNALS, inputs_of
 
 every_effect = pytest.mark.parametrize("name, kind", CASES)
 every_name = pytest.mark.parametrize("name", CATALOGUE)
@@ -453,6 +453,22 @@ def test_saturated_samples_stay_marked_behind_the_effect(name, kind):
     _, lost = compensate(sensor, y, u)
     np.testing.assert_array_equal(lost == 1, np.abs(y) >= limit)
     assert lost.any()
+
+
+@pytest.mark.parametrize("kind", ("gyro", "accel"))
+@pytest.mark.parametrize("steps", (37.0, 37.4, 37.5, 37.6))
+def test_a_limit_is_seen_behind_rounding(kind, steps):
+    """Where it is no multiple of the step, an output at the limit is less or more than that."""
+    limit, step = 3.0, 3.0 / steps
+    sensor = Sensor(kind, {}).with_values("saturation", limit=np.full(3, limit))
+    sensor = sensor.with_values("quantization", q=np.full(3, step))
+    u = np.zeros((401, N_INPUT))
+    u[:, own(kind)] = x = np.linspace(-1.3 * limit, 1.3 * limit, 401)[:, None] * np.ones(3)
+    y = run(sensor, u)
+    _, lost = compensate(sensor, y, u)
+    assert np.all(lost[np.abs(x) >= limit] == 1)
+    assert np.all(lost[np.abs(x) < limit - step] == 0)
+    np.testing.assert_array_equal(lost == 1, np.abs(y) >= sensor.clips_from - 1e-9)
 
 
 @every_effect
