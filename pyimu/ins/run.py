@@ -15,6 +15,7 @@ from pyimu.attitude.contradicted import contradicted, without
 from pyimu.block.parameters import number
 from pyimu.errors import Finding, UserError
 from pyimu.ins import checks
+from pyimu.ins.askew_limit import with_equal_limits
 from pyimu.ins.filter.variables import OWN_PARAMETERS
 from pyimu.ins.filtered import Filtered
 from pyimu.ins.integrated import integrated
@@ -103,6 +104,7 @@ def run(
     checks.check_columns(recording, limits["gravity"])
     most = limits["top_acceleration"], limits["top_turn_rate"]
     recording, findings = checks.without_outliers(recording, *most)
+    recording = with_equal_limits(recording)
     wrong = contradicted(recording)
     findings += wrong
     declared = None if part is None else part_of(part)
