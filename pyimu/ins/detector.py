@@ -170,6 +170,10 @@ def detect(
         spread = own + variance_of_bias + noise.walk**2 * away
         force = np.mean(accel[start:stop], axis=0)
         if np.sum((mean - bias) ** 2 / spread) > STEADY_GATE + 3:
+            change = _changes_at(gyro[start:stop], noise.rate, rows)
+            if change is not None:
+                waiting[:0] = [(start, start + change, one), (start + change, stop, one)]
+                continue
             still[start:stop] = False
             steady.append((start, stop))
         elif before is not None and _is_pushed(
@@ -188,7 +192,18 @@ def detect(
             at = float(time[stop - 1])
             if before is None or (stop - start) * period > MOMENT:
                 before = _Rest(force, stop - start, stop)
-    return Detected(still, float(np.mean(passed)), tuple(steady))
+    return Detected(still, float(np.mean(passed)), tuple(_joined(steady)))
+
+
+def _joined(parts: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """The stretches in their order; those that follow each other are one."""
+    found: list[tuple[int, int]] = []
+    for start, stop in sorted(parts):
+        if found and start <= found[-1][1]:
+            found[-1] = found[-1][0], max(stop, found[-1][1])
+        else:
+            found.append((start, stop))
+    return found
 
 
 def _followed(
@@ -234,6 +249,23 @@ def _unturned(rates: np.ndarray, spread: np.ndarray, rows: int) -> np.ndarray:
     return np.append(np.repeat(still, rows), np.full(len(rates) - n * rows, still[-1]))
 
 
+def _changes_at(gyro: np.ndarray, std: np.ndarray, rows: int) -> int | None:
+    """The sample of a still stretch at which the mean of its rates (n, 3) changes, None where it
+    does not: where a turn begins or ends that is too slow for a window and for ``_unturned``. It is
+    that for which two means are likeliest beside one.
+    """
+    n = len(gyro)
+    at = np.arange(rows, n - rows + 1)
+    if not len(at):
+        return None
+    sums = np.cumsum(np.nan_to_num(gyro), axis=0)
+    before, after = sums[at - 1] / at[:, None], (sums[-1] - sums[at - 1]) / (n - at)[:, None]
+    weight = at * (n - at) / n
+    gain = weight * np.sum(((before - after) / std) ** 2, axis=1)
+    best = int(np.argmax(gain))
+    return int(at[best]) if gain[best] > STEADY_GATE + 3 else None
+
+
 def _unpushed(force: np.ndarray, noise: Noise, rows: int, period: float) -> np.ndarray:
     """Marks (n,) of a still stretch, less where its ``force`` (n, 3) has another mean than before.
 
@@ -250,8 +282,10 @@ def _unpushed(force: np.ndarray, noise: Noise, rows: int, period: float) -> np.n
     short = max(2, round(MOMENT / block))
     calm = _rest_among(means, short, limit)
     still = np.empty(n, dtype=bool)
-    still[calm:] = _as_before(means[calm:], limit, block)
-    still[: calm + 1] = _as_before(means[calm::-1], limit, block)[::-1]
+    # its first may be in the end of a push
+    rest = np.median(means[calm : calm + short], axis=0)
+    still[calm:] = _as_before(means[calm:], rest, limit, block)
+    still[: calm + 1] = _as_before(means[calm::-1], rest, limit, block)[::-1]
     for start, stop in runs(still):
         if start > 0 and stop < n and stop - start < short:
             still[start:stop] = False
@@ -275,12 +309,12 @@ def _rest_among(means: np.ndarray, count: int, limit: float) -> int:
     return int(starts[np.argmax(shared)])
 
 
-def _as_before(means: np.ndarray, limit: float, block: float) -> np.ndarray:
-    """Marks (n,) of means (n, 3) over ``block`` s that are those of the first, followed over
+def _as_before(means: np.ndarray, rest: np.ndarray, limit: float, block: float) -> np.ndarray:
+    """Marks (n,) of means (n, 3) over ``block`` s that are that of a ``rest`` (3,), followed over
     ``FOLLOWED``, to the root of ``limit``; and of others that stay so for ``SETTLED``.
     """
     long = max(2, round(SETTLED / block))
-    rest, still = means[0], np.ones(len(means), dtype=bool)
+    still = np.ones(len(means), dtype=bool)
     for k, mean in enumerate(means):
         last = means[max(0, k - long + 1) : k + 1]
         still[k] = np.sum((mean - rest) ** 2) <= limit

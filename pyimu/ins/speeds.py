@@ -15,6 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.ins.detector import FORCE_STAYS, FORCE_TURNED, STEADY_GATE, WINDOW, Noise, way_of
+from pyimu.laws import chi2
 from pyimu.recording.clock import runs
 from pyimu.units import STANDARD_GRAVITY
 
@@ -29,6 +30,11 @@ MOST_STRETCHES = 12
 
 RETURNED = 0.5
 """Of the speeds in between: the least that must have gone where a stretch is called a rest."""
+
+NONE = float(chi2.isf(1e-3, 3))
+"""Square of a speed over its variance, up to which it is none by chance: of two changes that are
+known to their errors more than half of the first may be left, and one that is lost in its errors
+comes to light by the next."""
 
 APART, LONG = 2 * WINDOW, 2.0
 """s; stretches that are nearer to each other than the first are one that a window parted by chance,
@@ -62,6 +68,11 @@ class _Change:
     variance: float
     turn: Rotation
 
+    @property
+    def moves(self) -> bool:
+        """Whether the velocity is another at the end."""
+        return _is_speed(self.velocity[-1], self.variance)
+
 
 @dataclass(frozen=True)
 class _Leg:
@@ -80,8 +91,12 @@ class _Leg:
         return self.velocity + self.turn.apply(own), self.variance + self.change.variance
 
     def moves(self, row: int) -> bool:
-        velocity, variance = self.at(row)
-        return bool(velocity @ velocity > LEAST_SPEED**2 + (STEADY_GATE + 3) * variance)
+        return _is_speed(*self.at(row))
+
+
+def _is_speed(velocity: np.ndarray, variance: float) -> bool:
+    """Whether a velocity (3,) of that variance of each axis is none of a body at rest."""
+    return bool(velocity @ velocity > LEAST_SPEED**2 + (STEADY_GATE + 3) * variance)
 
 
 def driven(
@@ -149,10 +164,11 @@ def _next_rest(
     stretches: list[_Stretch], at: int, change: Callable[[int], _Change], period: float
 ) -> tuple[int, list[_Leg]]:
     """Which stretch is the next rest after that ``at``, one behind the last where none is, and the
-    legs until then.
+    legs until then. A speed that may be one by chance is one where the next change takes it back.
     """
     velocity, variance, turn = np.zeros(3), 0.0, Rotation.identity()
     speeds, legs, last = [], [], len(stretches) - 1
+    moves = perhaps = False
     for k in range(at, min(at + MOST_STRETCHES, last)):
         if k > at:
             variance += (FORCE_STAYS * stretches[k].rows * period) ** 2
@@ -162,9 +178,17 @@ def _next_rest(
         legs.append(leg)
         end = leg.change.rows.stop - 1
         (velocity, variance), turn = leg.at(end), turn * leg.change.turn
-        speed, moves = float(np.linalg.norm(velocity)), leg.moves(end)
-        if not moves and (k == at or speed < RETURNED * min(speeds)):
+        speed = float(np.linalg.norm(velocity))
+        back = moves and leg.change.moves and speed**2 <= NONE * variance
+        moves = leg.moves(end)
+        if k == at and not moves:
+            perhaps = at + 1 < last and speed**2 > LEAST_SPEED**2 + NONE * variance
+            if not perhaps:
+                break
+        elif not moves and (speed < RETURNED * min(speeds) or back):
             return k + 1, legs
+        elif perhaps:
+            break
         if moves and at + 1 == last:
             return last + 1, legs
         speeds.append(speed)

@@ -170,6 +170,35 @@ def test_a_turn_that_grows_in_short_even_stretches_takes_no_bias_along(seed):
     assert found.still[2450:3950].mean() > 0.95
 
 
+def shaken(accel, first, stop, seed):
+    accel[first:stop] += np.random.default_rng(100 + seed).normal(size=(stop - first, 3))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_rest_before_a_turn_that_no_window_shows_stays(seed):
+    """12 mrad/s: 3 standard deviations of a block's mean, and 13 of that of rest and turn together,
+    for which both were taken for a turn."""
+    time, gyro, accel = resting(3000, seed)
+    shaken(accel, 1500, 1700, seed)
+    gyro[2100:2700, 2] += 0.012
+    shaken(accel, 2700, 3000, seed)
+    found = detect(time, gyro, accel, NOISE, H)
+    assert found.still[1750:2000].all()
+    assert found.still[2150:2650].mean() < 0.1
+    assert len(found.steady) == 1
+
+
+def test_a_rest_is_told_by_the_middle_of_what_most_of_a_stretch_has():
+    """A stretch of alike forces may begin in the end of a push, here 0.06 m/s^2 that is within the
+    limit of 0.073: beside it a rest at 0.015 m/s^2 to the other side was a push."""
+    push = [-0.015] * 9 + [0.1, 0.16, 0.2, 0.2, 0.16, 0.1, 0.06] + [0.0] * 8
+    push += [-0.1, -0.16, -0.2, -0.2, -0.16, -0.1] + [0.0] * 13
+    accel = np.array([0.3, -0.2, 9.7]) + np.repeat(push, 30)[:, None] * [1.0, 0.0, 0.0]
+    time, gyro = H * np.arange(len(accel)), np.tile(NOISE.bias, (len(accel), 1))
+    found = detect(time, gyro, accel, NOISE, H)
+    assert found.still[30:240].all() and found.still[-360:-20].all()
+
+
 def test_missing_samples_are_no_rest():
     time, gyro, accel = resting(1000)
     accel[500] = np.nan
