@@ -5,23 +5,39 @@ One linear-phase filter for gyro, reference and regressors alike.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
+from scipy.optimize import brentq
 from scipy.signal import upfirdn
 
-OVERSAMPLING = 2.5
+HANN = 0.7203
+"""Frequency at which the power behind a Hann window has halved, times its length."""
+
+SHORTEST = 1.001
+"""Samples of a smoothing window that is hardly any."""
+
+HALF = float(np.sqrt(0.5))
+"""Gain at which the power is half."""
+
+ROUNDING = 1e-9
+"""Share of a stride that may be missing of a whole number of samples."""
 
 
 @dataclass(frozen=True)
 class Band:
-    """A Hann-weighted moving average of ``taps`` samples, kept every ``stride`` samples.
+    """A Hann-weighted moving average of ``taps`` samples, kept every half of its length.
 
     ``Band()`` is no filter at all. The window's length follows from the -3 dB frequency: a Hann
-    window of L samples falls to 1/sqrt(2) at 0.7203 of the sample rate over L. Rows are kept at
-    ``OVERSAMPLING`` times that frequency and no faster: whitening weighs every frequency up to half
-    the row rate alike, and beyond the band there is nothing to trust.
+    window of L samples falls to 1/sqrt(2) at 0.7203 of the sample rate over L. It is a plain
+    average over its half, smoothed by the half wave of a cosine as long; of no whole number of
+    samples the average takes the next lower one, which is the ``stride``, and the half wave the
+    rest. So the windows of all rows add up to a constant, and the rows to what the samples add up
+    to: of noise above the rows' rate nothing comes down to the lowest frequencies, where the
+    derivative of an attitude's noise has least and a bias is told from it. Rows are kept no faster:
+    whitening weighs every frequency up to half the row rate alike, and beyond the band there is
+    nothing to trust.
     """
 
     weights: tuple[float, ...] = (1.0,)
@@ -30,15 +46,7 @@ class Band:
     @classmethod
     def below(cls, band_hz: float, sample_rate: float) -> Band:
         """Band up to ``band_hz`` (-3 dB) at ``sample_rate``, both in Hz."""
-        support = 0.7203 * sample_rate / band_hz
-        half = math.ceil(support / 2) - 1
-        if half < 1:
-            return cls()
-        # A support of no whole number of samples keeps the frequency where it was asked for.
-        window = 1 + np.cos(2 * np.pi * np.arange(-half, half + 1) / support)
-        return cls(
-            tuple(window / window.sum()), max(1, round(sample_rate / (OVERSAMPLING * band_hz)))
-        )
+        return _below(band_hz / sample_rate)
 
     @property
     def half(self) -> int:
@@ -77,3 +85,33 @@ class Band:
         padded = np.concatenate([np.zeros((values.shape[1], lead)), shifted.T], axis=1)
         first = (2 * self.half + lead) // self.stride
         return upfirdn(np.array(self.weights), padded, 1, self.stride)[:, first : first + rows].T
+
+
+@lru_cache(maxsize=64)
+def _below(share: float) -> Band:
+    """Band up to a ``share`` of the sample rate."""
+    half = 0.5 * HANN / share
+    if half <= 1.0:
+        return Band()
+    stride = int(half + ROUNDING)
+    support = brentq(lambda m: _passed(share, stride, m) - HALF, SHORTEST, 1.5 / share)
+    return Band(tuple(_window(stride, support)), stride)
+
+
+def _passed(share: float, stride: int, support: float) -> float:
+    """Gain of a window at a ``share`` of the sample rate."""
+    weights = _window(stride, support)
+    k = np.arange(len(weights)) - len(weights) // 2
+    return float(np.cos(2 * np.pi * share * k) @ weights)
+
+
+def _window(stride: int, support: float) -> np.ndarray:
+    """Weights, an odd number, of a plain average over ``stride`` samples, smoothed by the half wave
+    of a cosine over a ``support`` of no whole number of samples.
+    """
+    # Of an even stride the middle lies between two samples: that of the other must do so, too.
+    between = 0.5 * (1 - stride % 2)
+    at = np.arange(between, support / 2)
+    at = np.concatenate([-at[::-1][: len(at) - (stride % 2)], at])
+    wave = np.cos(np.pi * at / support)
+    return np.convolve(wave / wave.sum(), np.full(stride, 1.0 / stride))
