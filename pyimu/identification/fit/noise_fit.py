@@ -29,6 +29,11 @@ SPANS = 2
 """Memories of an autoregression over which a level is taken out of a residual: over one, of the
 noise that it predicts hardly any would be left, and of a step the share of a single span stays."""
 
+LARGEST_GAIN = 0.1
+"""By which a scale factor may be wrong. What takes more out of a residual along an axis' own rate
+is the noise of the reference, which is in both; up to it no more than this share of that is lost.
+"""
+
 BY_NOISE = 10.0
 """Times as much as the noise in the motion itself may take out of a residual that the motion must
 take, where it is more than noise."""
@@ -113,7 +118,7 @@ def _autoregression(rows: list[tuple[Trial, Linear]], axis: int, whole: bool) ->
     parts, slow, less = [], [], False
     for trial, one in rows:
         left = one.residual[:, axis]
-        noise = left if whole else _beside_motion(trial, left)
+        noise = left if whole else _beside_motion(trial, axis, left)
         parts.append((_beside_slow(trial, one.time, noise), one.time, one.segments))
         slow.append((noise, one.time, one.segments))
         less |= noise is not left
@@ -150,22 +155,33 @@ def _beside_slow(trial: Trial, time: np.ndarray, left: np.ndarray) -> np.ndarray
     return left - slow @ np.linalg.lstsq(slow, left)[0]
 
 
-def _beside_motion(trial: Trial, left: np.ndarray) -> np.ndarray:
+def _beside_motion(trial: Trial, axis: int, left: np.ndarray) -> np.ndarray:
     """The residual ``left`` (m,) of an axis, without what gains, axes and a delay that are not
     right yet make of the motion, where it is more than the reference's noise makes of it.
 
     A motion that repeats is what its past predicts: an autoregression would take that for noise,
     and whiten the motion away with it. The reference's own noise is in the residual and in the
-    motion, and takes of the residual the share that it is of the motion.
+    motion, and takes of the residual the share that it is of the motion: all, where an axis stands.
     """
     own = KINDS[trial.kind].own, KINDS[trial.kind].own_rate
     motion = in_band(trial, np.hstack([trial.u[:, COLUMNS[name]] for name in own]))
-    columns = np.column_stack([motion, np.ones(len(motion))])
-    if len(left) < LEAST_ROWS * columns.shape[1]:
+    if len(left) < LEAST_ROWS * (motion.shape[1] + 1):
         return left
-    beside = left - columns @ np.linalg.lstsq(columns, left)[0]
+    beside, gains = _less(left, motion)
+    if gains[axis] < -LARGEST_GAIN:
+        motion[:, axis] = 0.0
+        beside, _ = _less(left, motion)
     taken = 1.0 - float(beside @ beside) / max(float(left @ left), 1e-300)
     return beside if taken > BY_NOISE * _shared(trial, beside, motion) else left
+
+
+def _less(left: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A residual ``left`` (m,) less a constant and what goes with columns (m, c) of ``motion``, and
+    the gains (c,) of these.
+    """
+    columns = np.column_stack([motion, np.ones(len(motion))])
+    gains = np.linalg.lstsq(columns, left)[0]
+    return left - columns @ gains, gains[:-1]
 
 
 def _shared(trial: Trial, noise: np.ndarray, motion: np.ndarray) -> float:
