@@ -29,9 +29,9 @@ SPANS = 2
 """Memories of an autoregression over which a level is taken out of a residual: over one, of the
 noise that it predicts hardly any would be left, and of a step the share of a single span stays."""
 
-LARGEST_GAIN = 0.1
-"""By which a scale factor may be wrong. What takes more out of a residual along an axis' own rate
-is the noise of the reference, which is in both; up to it no more than this share of that is lost.
+MOSTLY_NOISE = 0.5
+"""Share of an axis' own rate in a residual from which on it is taken for the noise of the
+reference, which is in both, where an axis stands all of it: no scale factor is wrong by so much.
 """
 
 BY_NOISE = 10.0
@@ -168,7 +168,7 @@ def _beside_motion(trial: Trial, axis: int, left: np.ndarray) -> np.ndarray:
     if len(left) < LEAST_ROWS * (motion.shape[1] + 1):
         return left
     beside, gains = _less(left, motion)
-    if gains[axis] < -LARGEST_GAIN:
+    if gains[axis] < -MOSTLY_NOISE:
         motion[:, axis] = 0.0
         beside, _ = _less(left, motion)
     taken = 1.0 - float(beside @ beside) / max(float(left @ left), 1e-300)
