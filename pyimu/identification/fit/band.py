@@ -12,6 +12,9 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.signal import upfirdn
 
+OVERSAMPLING = 2.5
+"""Rows for each period of the band's frequency, at the least."""
+
 HANN = 0.7203
 """Frequency at which the power behind a Hann window has halved, times its length."""
 
@@ -21,23 +24,19 @@ SHORTEST = 1.001
 HALF = float(np.sqrt(0.5))
 """Gain at which the power is half."""
 
-ROUNDING = 1e-9
-"""Share of a stride that may be missing of a whole number of samples."""
-
 
 @dataclass(frozen=True)
 class Band:
-    """A Hann-weighted moving average of ``taps`` samples, kept every half of its length.
+    """A weighted moving average of an odd number of samples, kept every ``stride`` samples.
 
-    ``Band()`` is no filter at all. The window's length follows from the -3 dB frequency: a Hann
-    window of L samples falls to 1/sqrt(2) at 0.7203 of the sample rate over L. It is a plain
-    average over its half, smoothed by the half wave of a cosine as long; of no whole number of
-    samples the average takes the next lower one, which is the ``stride``, and the half wave the
-    rest. So the windows of all rows add up to a constant, and the rows to what the samples add up
+    ``Band()`` is no filter at all. The window is a plain average over a stride, smoothed by the
+    half wave of a cosine as long as makes the power fall to half at its frequency: nearly a Hann
+    window. So the windows of all rows add up to a constant, and the rows to what the samples add up
     to: of noise above the rows' rate nothing comes down to the lowest frequencies, where the
-    derivative of an attitude's noise has least and a bias is told from it. Rows are kept no faster:
-    whitening weighs every frequency up to half the row rate alike, and beyond the band there is
-    nothing to trust.
+    derivative of an attitude's noise has least and a bias is told from it. Rows are kept at
+    ``OVERSAMPLING`` times the band's frequency, faster only where no window of so long a stride
+    passes it: whitening weighs every frequency up to half the row rate alike, and beyond the band
+    there is nothing to trust.
     """
 
     weights: tuple[float, ...] = (1.0,)
@@ -90,10 +89,11 @@ class Band:
 @lru_cache(maxsize=64)
 def _below(share: float) -> Band:
     """Band up to a ``share`` of the sample rate."""
-    half = 0.5 * HANN / share
-    if half <= 1.0:
+    if HANN <= 2 * share:
         return Band()
-    stride = int(half + ROUNDING)
+    stride = round(1.0 / (OVERSAMPLING * share))
+    while _passed(share, stride, SHORTEST) <= HALF:
+        stride -= 1
     support = brentq(lambda m: _passed(share, stride, m) - HALF, SHORTEST, 1.5 / share)
     return Band(tuple(_window(stride, support)), stride)
 
