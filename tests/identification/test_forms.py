@@ -20,9 +20,7 @@ def world():
 
 def single_pole(world, tau):
     """1 / (1 + j omega tau), through the spectrum."""
-    return lambda v: np.column_stack(
-        [_filtered(v[:, i], world.h, lambda w: 1 / (1 + 1j * w * tau)) for i in range(3)]
-    )
+    return lambda v: _filtered(v, world.h, lambda w: 1 / (1 + 1j * w * tau))
 
 
 def hard(d):

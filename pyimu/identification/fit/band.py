@@ -5,38 +5,23 @@ One linear-phase filter for gyro, reference and regressors alike.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
-from scipy.optimize import brentq
 from scipy.signal import upfirdn
 
 OVERSAMPLING = 2.5
-"""Rows for each period of the band's frequency, at the least."""
-
-HANN = 0.7203
-"""Frequency at which the power behind a Hann window has halved, times its length."""
-
-SHORTEST = 1.001
-"""Samples of a smoothing window that is hardly any."""
-
-HALF = float(np.sqrt(0.5))
-"""Gain at which the power is half."""
 
 
 @dataclass(frozen=True)
 class Band:
-    """A weighted moving average of an odd number of samples, kept every ``stride`` samples.
+    """A Hann-weighted moving average of ``taps`` samples, kept every ``stride`` samples.
 
-    ``Band()`` is no filter at all. The window is a plain average over a stride, smoothed by the
-    half wave of a cosine as long as makes the power fall to half at its frequency: nearly a Hann
-    window. So the windows of all rows add up to a constant, and the rows to what the samples add up
-    to: of noise above the rows' rate nothing comes down to the lowest frequencies, where the
-    derivative of an attitude's noise has least and a bias is told from it. Rows are kept at
-    ``OVERSAMPLING`` times the band's frequency, faster only where no window of so long a stride
-    passes it: whitening weighs every frequency up to half the row rate alike, and beyond the band
-    there is nothing to trust.
+    ``Band()`` is no filter at all. The window's length follows from the -3 dB frequency: a Hann
+    window of L samples falls to 1/sqrt(2) at 0.7203 of the sample rate over L. Rows are kept at
+    ``OVERSAMPLING`` times that frequency and no faster: whitening weighs every frequency up to half
+    the row rate alike, and beyond the band there is nothing to trust.
     """
 
     weights: tuple[float, ...] = (1.0,)
@@ -45,7 +30,15 @@ class Band:
     @classmethod
     def below(cls, band_hz: float, sample_rate: float) -> Band:
         """Band up to ``band_hz`` (-3 dB) at ``sample_rate``, both in Hz."""
-        return _below(band_hz / sample_rate)
+        support = 0.7203 * sample_rate / band_hz
+        half = math.ceil(support / 2) - 1
+        if half < 1:
+            return cls()
+        # A support of no whole number of samples keeps the frequency where it was asked for.
+        window = 1 + np.cos(2 * np.pi * np.arange(-half, half + 1) / support)
+        return cls(
+            tuple(window / window.sum()), max(1, round(sample_rate / (OVERSAMPLING * band_hz)))
+        )
 
     @property
     def half(self) -> int:
@@ -84,34 +77,3 @@ class Band:
         padded = np.concatenate([np.zeros((values.shape[1], lead)), shifted.T], axis=1)
         first = (2 * self.half + lead) // self.stride
         return upfirdn(np.array(self.weights), padded, 1, self.stride)[:, first : first + rows].T
-
-
-@lru_cache(maxsize=64)
-def _below(share: float) -> Band:
-    """Band up to a ``share`` of the sample rate."""
-    if HANN <= 2 * share:
-        return Band()
-    stride = round(1.0 / (OVERSAMPLING * share))
-    while _passed(share, stride, SHORTEST) <= HALF:
-        stride -= 1
-    support = brentq(lambda m: _passed(share, stride, m) - HALF, SHORTEST, 1.5 / share)
-    return Band(tuple(_window(stride, support)), stride)
-
-
-def _passed(share: float, stride: int, support: float) -> float:
-    """Gain of a window at a ``share`` of the sample rate."""
-    weights = _window(stride, support)
-    k = np.arange(len(weights)) - len(weights) // 2
-    return float(np.cos(2 * np.pi * share * k) @ weights)
-
-
-def _window(stride: int, support: float) -> np.ndarray:
-    """Weights, an odd number, of a plain average over ``stride`` samples, smoothed by the half wave
-    of a cosine over a ``support`` of no whole number of samples.
-    """
-    # Of an even stride the middle lies between two samples: that of the other must do so, too.
-    between = 0.5 * (1 - stride % 2)
-    at = np.arange(between, support / 2)
-    at = np.concatenate([-at[::-1][: len(at) - (stride % 2)], at])
-    wave = np.cos(np.pi * at / support)
-    return np.convolve(wave / wave.sum(), np.full(stride, 1.0 / stride))
