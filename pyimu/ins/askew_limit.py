@@ -67,11 +67,13 @@ def _in_plane(force: np.ndarray, axis: int) -> np.ndarray:
     more of them than those below have (``touched_level``).
     """
     own, others = force[:, axis], np.delete(force, axis, axis=1)
-    rows = np.argsort(-own)[:AMONG]  # missing ones are last
+    none, whole = np.zeros(len(own), dtype=bool), np.flatnonzero(np.isfinite(force).all(axis=1))
+    if len(whole) < AMONG:
+        return none
+    rows = whole[np.argsort(-own[whole])[:AMONG]]
     top, step = own[rows[0]], resolution(own)
     near = DIGITS * top + 2 * step
-    none = np.zeros(len(own), dtype=bool)
-    if len(own) < AMONG or not own[rows[-1]] > 0 or step > COARSE * top:
+    if not own[rows[-1]] > 0 or step > COARSE * top:
         return none
     cross = _cross_of_plane(own[rows], others[rows], near)
     if cross is None:

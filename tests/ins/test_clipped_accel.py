@@ -119,6 +119,19 @@ def test_a_limit_that_a_correction_of_the_axes_moved_is_seen(limit):
     assert square(track, own.place[-1]) < chi2.isf(1e-4, 3)
 
 
+def test_a_sample_that_is_missing_on_another_axis_hides_no_limit():
+    """One of the outermost; of no warning, either, where many are missing."""
+    log, _ = stepped(5000, 6 * G)
+    accel = log.accel @ CORRECTION.T + 0.2
+    accel[np.argmax(accel[:, 0]), 1] = np.nan
+    accel[::40, 2] = np.nan
+    told = with_equal_limits(replace(log, accel=accel))
+    raw = np.linalg.solve(CORRECTION, (accel - 0.2).T).T
+    clipped = np.abs(raw) >= 6 * G * (1 - 1e-9)
+    assert clipped.any()
+    np.testing.assert_array_equal(np.abs(told.accel[clipped]), np.nanmax(np.abs(told.accel)))
+
+
 @pytest.mark.parametrize("bits", [10, 12, 16, 0])
 def test_a_walk_within_the_range_has_no_plane(bits):
     """Behind a converter, too, whose samples lie in many."""
