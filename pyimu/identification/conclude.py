@@ -87,7 +87,18 @@ def conclude(
     model = model.with_noise(noises)
     model = replace(model, after=with_magnetometer(model.after, start, magnetometer))
     case = _Settled(
-        start, declared, logs, others, found, fitting, model, noises, looks, magnetometer, quality
+        start,
+        declared,
+        logs,
+        others,
+        found,
+        another,
+        fitting,
+        model,
+        noises,
+        looks,
+        magnetometer,
+        quality,
     )
     named = _findings(case, say)
     say("error on held-out data")
@@ -114,7 +125,8 @@ def conclude(
 @dataclass(frozen=True, eq=False)
 class _Settled:
     """What was ``found`` of a part's sensors in logs to fit and ``others`` to judge by, once it is
-    settled; ``fitting`` are the sensors whose reference fits, and the ``model`` has the ``noises``.
+    settled; ``unfit`` says why a reference is another body's, ``fitting`` are the sensors whose
+    reference fits, and the ``model`` has the ``noises``.
     """
 
     start: Part
@@ -122,6 +134,7 @@ class _Settled:
     logs: list[Recording]
     others: list[Recording]
     found: Found
+    unfit: str
     fitting: Found
     model: Model
     noises: dict[str, Noise]
@@ -158,7 +171,7 @@ def _evidence(
     return Evidence(
         examined=tuple(found),
         unexamined=_unexamined(found, case.logs, quality),
-        unfit=unfit(found),
+        unfit=case.unfit,
         shows=shows_anything(found),
         rows=rows_fitted(found),
         added=tuple(added),

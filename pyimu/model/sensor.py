@@ -16,7 +16,7 @@ from pyimu import units
 from pyimu.block.variables import NoiseChannel, Variable
 from pyimu.errors import UserError
 from pyimu.model.catalogue import CATALOGUE, add_effects, read_off
-from pyimu.model.chain import Chain, Slot, chain_of
+from pyimu.model.chain import HALF, Chain, Slot, chain_of
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import TRIADS, SensorKind
 from pyimu.model.signals import EVERY_SAMPLE
@@ -171,7 +171,7 @@ class Sensor:
             np.zeros(3) if found is None else np.broadcast_to(self.values[found[0]][found[1]], 3)
             for found in (self.reading("ceiling"), self.reading("step"))
         )
-        return np.where(limit > 0, limit - step / 2, np.inf)
+        return np.where(limit > 0, limit - HALF * step, np.inf)
 
     @property
     def left_in(self) -> tuple[str, ...]:
