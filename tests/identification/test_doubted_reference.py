@@ -125,6 +125,16 @@ def test_where_nothing_is_left_above_the_noise_nothing_unknown_looks_like_an_eff
     assert sums(before, after, [1.0, 1.0, 0.0]).is_little is little
 
 
+def test_what_the_error_of_a_draw_leaves_has_no_unknown_cause():
+    """A draw of the noise of attitudes is known to 3 % of its power: 2 % of it that are left above
+    it are no reason to refuse a scale factor of 19 nat; 12 % are.
+    """
+    less = sums([3.0, -5.0, 0.0], [2.99, -4.99, 0.0], [1.0, 1.0, 0.0])
+    assert less.is_little
+    assert not replace(less, unsure=np.array([3.0, 3.0, 0.0])).is_little
+    assert replace(less, unsure=np.array([0.5, 0.5, 0.0])).is_little
+
+
 def test_rounds_that_go_in_a_circle_beside_noise_of_the_reference_end_at_its_likeliest(monkeypatch):
     """Steps to and fro between the truth and a scale factor of 5 %, whatever is fitted."""
     sensor = SENSOR.with_values("scale_factor")

@@ -8,7 +8,7 @@ import pyimu
 from pyimu.identification.model.simulated import Simulated
 from pyimu.identification.report.page import page
 from pyimu.identification.report.put_in import put_in
-from pyimu.identification.search.choice import ALIKE
+from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.rover import demo
 from pyimu.rover.optical import WANDER
 
@@ -81,7 +81,7 @@ def test_a_candidate_that_led_at_the_first_look_explains_no_more_when_fitted_in_
     assert ahead and all("beyond belief" in c.reason for c in refused)
     text = page(closed)
     for c in (c for c in ahead if c not in refused):
-        assert c.fitted < chosen.fitted + ALIKE
+        assert c.fitted < chosen.fitted + SET_WIDTH
         led, apart = "though they led", "do not tell apart"
         assert (
             f"{c.effect} "

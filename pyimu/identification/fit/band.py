@@ -5,23 +5,25 @@ One linear-phase filter for gyro, reference and regressors alike.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.signal import upfirdn
 
 OVERSAMPLING = 2.5
+"""Rows for each period of the band's frequency."""
 
 
 @dataclass(frozen=True)
 class Band:
-    """A Hann-weighted moving average of ``taps`` samples, kept every ``stride`` samples.
+    """A Hann-weighted moving average, kept every ``stride`` samples, half of its length.
 
-    ``Band()`` is no filter at all. The window's length follows from the -3 dB frequency: a Hann
-    window of L samples falls to 1/sqrt(2) at 0.7203 of the sample rate over L. Rows are kept at
-    ``OVERSAMPLING`` times that frequency and no faster: whitening weighs every frequency up to half
-    the row rate alike, and beyond the band there is nothing to trust.
+    ``Band()`` is no filter at all. So long a window falls to 1/sqrt(2) at 0.36 of the row rate,
+    nine tenths of the band's frequency, and the windows of all rows add up to a constant, so that
+    the rows add up to what the samples do: of noise above the rows' rate nothing comes down to the
+    lowest frequencies, where the derivative of an attitude's noise has least and a bias is told
+    from it. Rows are kept no faster: whitening weighs every frequency up to half the row rate
+    alike, and beyond the band there is nothing to trust.
     """
 
     weights: tuple[float, ...] = (1.0,)
@@ -29,16 +31,12 @@ class Band:
 
     @classmethod
     def below(cls, band_hz: float, sample_rate: float) -> Band:
-        """Band up to ``band_hz`` (-3 dB) at ``sample_rate``, both in Hz."""
-        support = 0.7203 * sample_rate / band_hz
-        half = math.ceil(support / 2) - 1
-        if half < 1:
+        """Band up to ``band_hz`` at ``sample_rate``, both in Hz."""
+        stride = round(sample_rate / (OVERSAMPLING * band_hz))
+        if stride < 2:
             return cls()
-        # A support of no whole number of samples keeps the frequency where it was asked for.
-        window = 1 + np.cos(2 * np.pi * np.arange(-half, half + 1) / support)
-        return cls(
-            tuple(window / window.sum()), max(1, round(sample_rate / (OVERSAMPLING * band_hz)))
-        )
+        window = 1 + np.cos(np.pi * np.arange(1 - stride, stride) / stride)
+        return cls(tuple(window / window.sum()), stride)
 
     @property
     def half(self) -> int:

@@ -435,6 +435,9 @@ def drawn(
     n = len(trial.y)
     frequency = np.fft.rfftfreq(n, trial.h)
     psd = np.interp(frequency, at, density / response(trial, at) ** 2, right=0.0)
+    if trial.differs:
+        # What was differentiated has less of the lowest frequencies than a straight line.
+        psd *= np.minimum(frequency / at[1], 1.0)
     # Of one size at each frequency: what a draw scatters would be one more thing not known.
     turned = np.exp(2j * np.pi * rng.random(len(frequency)))
     return np.fft.irfft(turned * np.sqrt(n * psd / (2 * trial.h)), n)

@@ -102,6 +102,7 @@ def _is_same(a, b) -> bool:
     if isinstance(a, Autoregressive) and isinstance(b, Autoregressive):
         alike = len(a.coefficients) == len(b.coefficients) and np.isclose(a.r, b.r, 1e-4, 0.0)
         alike = alike and np.isclose(a.k2, b.k2, 1e-3, 0.0)
+        alike = alike and np.isclose(1.0 - a.theta, 1.0 - b.theta, 1e-3, 0.0)
         return bool(alike and np.allclose(a.coefficients, b.coefficients, 0.0, 1e-3))
     return False
 

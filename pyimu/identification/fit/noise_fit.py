@@ -21,12 +21,22 @@ LEAST_ROWS = 50
 """Rows for each column of motion that is taken out of a residual: with fewer, noise would go with
 it."""
 
+HALF_WAVES = 8
+"""Of a cosine over the time of a log that are taken out of a residual before its noise is fitted.
+A step of any place keeps a fortieth of its power beside so many (2 / pi^2 / 8)."""
+
 SPANS = 2
 """Memories of an autoregression over which a level is taken out of a residual: over one, of the
 noise that it predicts hardly any would be left, and of a step the share of a single span stays."""
 
-MOTION = 0.01
-"""Share of a residual's power beside the motion below which it is nothing but motion."""
+MOSTLY_NOISE = 0.5
+"""Share of an axis' own rate in a residual from which on it is taken for the noise of the
+reference, which is in both, where an axis stands all of it: no scale factor is wrong by so much.
+"""
+
+BY_NOISE = 10.0
+"""Times as much as the noise in the motion itself may take out of a residual that the motion must
+take, where it is more than noise."""
 
 
 def declared_variances(sensor: Sensor, h: float) -> tuple[np.ndarray, np.ndarray]:
@@ -79,7 +89,7 @@ def less_levels(residuals: list[Linear], noise: Noise) -> Noise:
 
 def _less_levels(residuals: list[Linear], axis: int, noise: Autoregressive) -> Autoregressive:
     order = len(noise.coefficients)
-    if not order:
+    if not order or noise.theta:
         return noise
     parts = [
         (_less_means(one.residual[:, axis], one.segments, SPANS * order), one.time, one.segments)
@@ -108,11 +118,14 @@ def _autoregression(rows: list[tuple[Trial, Linear]], axis: int, whole: bool) ->
     parts, slow, less = [], [], False
     for trial, one in rows:
         left = one.residual[:, axis]
-        noise = left if whole else _beside_motion(trial, left)
+        noise = left if whole else _beside_motion(trial, axis, left)
         parts.append((_beside_slow(trial, one.time, noise), one.time, one.segments))
         slow.append((noise, one.time, one.segments))
         less |= noise is not left
-    found = replace(Autoregressive.fit(parts), beside_motion=less)
+    least = None
+    if all(t.differs for t, _ in rows):
+        least = (HALF_WAVES / 2 + 1) / max(1, min(len(one.time) for _, one in rows))
+    found = replace(Autoregressive.fit(parts, least=least), beside_motion=less)
     errors = []
     for noise, time, segments in slow:
         seen = found.predicted(len(time), segments)
@@ -125,7 +138,7 @@ def _autoregression(rows: list[tuple[Trial, Linear]], axis: int, whole: bool) ->
 
 def _beside_slow(trial: Trial, time: np.ndarray, left: np.ndarray) -> np.ndarray:
     """The residual ``left`` (m,) of an axis at ``time`` (m,), less a ramp and a line in the
-    temperature.
+    temperature, and beside a differentiated reference what a few half waves say of it.
 
     A slow error is what its past predicts, too: it would be whitened away, and its cause with it.
     Of a bias that walks the most is left, which is still predicted.
@@ -133,24 +146,50 @@ def _beside_slow(trial: Trial, time: np.ndarray, left: np.ndarray) -> np.ndarray
     columns = [np.ones(len(time)), time - time.mean()]
     if "temperature" in trial.known:
         columns.append(in_band(trial, trial.u[:, COLUMNS["temperature"]])[:, 0])
+    if trial.differs and len(left) >= LEAST_ROWS * (len(columns) + HALF_WAVES):
+        through = np.pi * (time - time[0]) / (time[-1] - time[0])
+        columns += [np.cos(k * through) for k in range(1, HALF_WAVES + 1)]
     if len(left) < LEAST_ROWS * len(columns):
         return left
     slow = np.column_stack(columns)
     return left - slow @ np.linalg.lstsq(slow, left)[0]
 
 
-def _beside_motion(trial: Trial, left: np.ndarray) -> np.ndarray:
+def _beside_motion(trial: Trial, axis: int, left: np.ndarray) -> np.ndarray:
     """The residual ``left`` (m,) of an axis, without what gains, axes and a delay that are not
-    right yet make of the motion, where it is hardly anything else.
+    right yet make of the motion, where it is more than the reference's noise makes of it.
 
     A motion that repeats is what its past predicts: an autoregression would take that for noise,
-    and whiten the motion away with it. Where there is noise to be seen the residual stays as it is,
-    for the reference's own is in the motion, too.
+    and whiten the motion away with it. The reference's own noise is in the residual and in the
+    motion, and takes of the residual the share that it is of the motion: all, where an axis stands.
     """
     own = KINDS[trial.kind].own, KINDS[trial.kind].own_rate
     motion = in_band(trial, np.hstack([trial.u[:, COLUMNS[name]] for name in own]))
-    columns = np.column_stack([motion, np.ones(len(motion))])
-    if len(left) < LEAST_ROWS * columns.shape[1]:
+    if len(left) < LEAST_ROWS * (motion.shape[1] + 1):
         return left
-    beside = left - columns @ np.linalg.lstsq(columns, left)[0]
-    return beside if beside @ beside < MOTION * (left @ left) else left
+    beside, gains = _less(left, motion)
+    if gains[axis] < -MOSTLY_NOISE:
+        motion[:, axis] = 0.0
+        beside, _ = _less(left, motion)
+    taken = 1.0 - float(beside @ beside) / max(float(left @ left), 1e-300)
+    return beside if taken > BY_NOISE * _shared(trial, beside, motion) else left
+
+
+def _less(left: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A residual ``left`` (m,) less a constant and what goes with columns (m, c) of ``motion``, and
+    the gains (c,) of these.
+    """
+    columns = np.column_stack([motion, np.ones(len(motion))])
+    gains = np.linalg.lstsq(columns, left)[0]
+    return left - columns @ gains, gains[:-1]
+
+
+def _shared(trial: Trial, noise: np.ndarray, motion: np.ndarray) -> float:
+    """Share of ``noise`` (m,) that a ``motion`` (m, 6), rates and their slopes, takes out of it
+    where its own noise is as large.
+    """
+    step = trial.h * trial.band.stride
+    powers = np.repeat([np.var(noise), np.var(np.diff(noise)) / step**2], 3)
+    seen = np.var(motion, axis=0)
+    moves = seen > 0.0
+    return float(np.sum(powers[moves] / seen[moves]))

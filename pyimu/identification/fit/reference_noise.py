@@ -71,7 +71,7 @@ def with_reference_noise(
 
     def draw(trial: Trial) -> Trial:
         found, white = _drawn(trial, variance, rng)
-        return _with_spectrum(found, _spectrum_of(trial, spectra), white, rng)
+        return _with_turn(_with_spectrum(found, _spectrum_of(trial, spectra), white, rng))
 
     trials, apart = tuple(map(draw, fit.trials)), list(map(draw, held))
     if fit.free:
@@ -272,6 +272,22 @@ def _with_spectrum(
             noise[:, i] += drawn(trial, spectrum.frequency, more, rng)
     errors = tuple(s.error if s.variance > 0.0 else 0.0 for s in spectra)
     return replace(trial, noise=noise, noise_error=errors)
+
+
+def _with_turn(trial: Trial) -> Trial:
+    """The trial with what the body's turn makes of the noise of its attitudes.
+
+    Of an attitude that is wrong by a small a(t) in body axes the rate is wrong by da/dt + w x a: a
+    turns with the body. That meets the second derivative of a, and what follows angular
+    acceleration and rate would seem to be there.
+    """
+    if trial.reference != "attitude" or trial.noise is None or len(trial.axes) < 3:
+        return trial
+    noise, rate = np.array(trial.noise), trial.u[:, OWN[trial.kind]]
+    for a, b in trial.segments:
+        wrong = trial.h * np.cumsum(noise[a:b], axis=0)
+        noise[a:b] += np.cross(rate[a:b], wrong - wrong.mean(axis=0))
+    return replace(trial, noise=noise)
 
 
 def _as_the_reference_has_it(

@@ -175,6 +175,12 @@ class Trial:
         return ORDER.get(self.reference, 1)
 
     @property
+    def differs(self) -> bool:
+        """Whether its reference was differentiated once."""
+        measured = self.band_hz is None or self.reference in MEASURED
+        return not measured and self.derivatives == 1
+
+    @property
     def any_turn(self) -> bool:
         """Whether a turn of the whole triad is not the sensor's to answer for."""
         return self.free_rotation or (self.reduction is not None and self.reduction.any_turn)

@@ -10,12 +10,13 @@ constant bias is left to an explicit regressor.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numba import njit
 from scipy.signal import lfilter
 
+from pyimu.identification.fit import moving_average
 from pyimu.identification.fit.local_level import LOGGED, ROUNDING, SAME, likeliest
 
 Segments = list[tuple[int, int]]
@@ -25,6 +26,9 @@ LEAST_VARIANCE = 1e-22
 
 AR_ORDER = 32
 """Longest memory of an autoregression; a fiftieth of the rows where there are few."""
+
+SETTLED = 1024
+"""Rows after which an autoregression has forgotten what it began with."""
 
 CHUNK = 65536
 """Rows that are put side by side with their predecessors at once."""
@@ -210,18 +214,27 @@ class Innovations(Filter):
 
 
 class _PredictionErrors(Filter):
-    """Of an autoregression, each of ``segments`` begun anew: its first rows, which lack
-    predecessors, are zero.
+    """Of an autoregression, or a moving average of it, each of ``segments`` begun anew: its first
+    rows, which lack predecessors, are zero.
     """
 
-    def __init__(self, coefficients: tuple[float, ...], r: float, segments: Segments) -> None:
+    def __init__(
+        self, coefficients: tuple[float, ...], r: float, theta: float, segments: Segments
+    ) -> None:
         self.order, self.segments, self.row = len(coefficients), segments, 0
         self.taps = np.concatenate([[1.0], -np.array(coefficients)]) / np.sqrt(r)
         self.before = np.zeros((0, 0))
         rows = sum(max(0, b - a - self.order) for a, b in segments)
         self.log_det = rows * float(np.log(r))
+        self.average = None
+        if theta:
+            self.average = moving_average.Innovations(theta, segments)
+            self.log_det += sum(
+                moving_average.log_determinant(theta, b - a, self.order) for a, b in segments
+            )
 
     def next(self, values: np.ndarray) -> np.ndarray:
+        values = values if self.average is None else self.average.next(values)
         if not self.row:
             self.before = np.zeros((self.order, values.shape[1]))
         out, known = np.zeros(values.shape), np.concatenate([self.before, values])
@@ -275,6 +288,10 @@ class RandomWalk:
         """The noise as means over many rows show it."""
         return self
 
+    def in_means(self, count: float) -> RandomWalk:
+        """The noise of means over so many rows."""
+        return replace(self, r=self.r / count)
+
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
         """Innovations (m, c), unit variance, of columns (m, c) sampled at ``time`` (m,)."""
         return self.filter(time, segments).next(values)
@@ -318,7 +335,9 @@ class Autoregressive:
     """Residual whose prediction from its ``len(coefficients)`` predecessors leaves variance
     ``r``, beside a random walk that grows by ``k2`` a second, which is slow beside them, and has
     walked for ``before`` seconds when the rows begin; ``beside_motion`` says that the motion in it
-    was left out.
+    was left out. It is the difference of each such row and ``theta`` times the one before: with 1
+    the derivative of an attitude's noise, whose low frequencies no autoregression is long enough
+    for.
     """
 
     coefficients: tuple[float, ...]
@@ -326,17 +345,33 @@ class Autoregressive:
     beside_motion: bool = False
     k2: float = 0.0
     before: float = 0.0
+    theta: float = 0.0
 
     @property
     def slow(self) -> RandomWalk:
         """The noise as means over many rows show it."""
-        r = self.r / (1.0 - sum(self.coefficients)) ** 2
+        r = self.r * ((1.0 - self.theta) / (1.0 - sum(self.coefficients))) ** 2
         return RandomWalk(r, self.k2, self.before)
 
     @property
     def walk(self) -> RandomWalk:
         """The walk as the prediction errors, of unit variance, show it."""
         return RandomWalk(1.0, self.k2 / self.slow.r, self.before)
+
+    def in_means(self, count: float) -> Autoregressive:
+        """The noise of means over so many rows, one after another: a moving average that has their
+        variance, and that of the mean of very many of them.
+        """
+        rows = np.zeros(round(count) + SETTLED)
+        rows[: round(count)] = 1.0 / round(count)
+        taps = np.concatenate([[1.0], -np.array(self.coefficients)])
+        whole = float(self.r * np.sum(lfilter([1.0, -self.theta], taps, rows) ** 2))
+        of_many = self.slow.r / count
+        share = 1.0 - min(of_many / whole, 1.0)
+        # (1 - theta)^2 r is the one, (1 + theta^2) r the other.
+        theta = share / (1.0 + np.sqrt(1.0 - share**2))
+        r = of_many / (1.0 - theta) ** 2
+        return Autoregressive((), r, k2=self.k2, before=self.before, theta=theta)
 
     def whiten(self, values: np.ndarray, time: np.ndarray, segments: Segments) -> np.ndarray:
         """Prediction errors (m, c), unit variance.
@@ -347,7 +382,7 @@ class Autoregressive:
 
     def filter(self, time: np.ndarray, segments: Segments) -> Filter:
         """What makes columns in these segments white."""
-        errors = _PredictionErrors(self.coefficients, self.r, segments)
+        errors = _PredictionErrors(self.coefficients, self.r, self.theta, segments)
         if not self.k2:
             return errors
         seen = self.predicted(len(time), segments)
@@ -369,21 +404,30 @@ class Autoregressive:
         of white noise, and its adjoint acts on the values.
         """
         taps = np.concatenate([[1.0], -np.array(self.coefficients)])
-        seen = (lfilter([1.0], taps, values[a:b][::-1]) for a, b in segments)
+        seen = (lfilter([1.0, -self.theta], taps, values[a:b][::-1]) for a, b in segments)
         fast = float(self.r * sum(np.sum(v**2) for v in seen))
         slow = RandomWalk(0.0, self.k2, self.before)
         return fast + slow.variance_along(values, time, segments)
 
     @classmethod
     def fit(
-        cls, residuals: list[tuple[np.ndarray, np.ndarray, Segments]], order: int = AR_ORDER
+        cls,
+        residuals: list[tuple[np.ndarray, np.ndarray, Segments]],
+        order: int = AR_ORDER,
+        least: float | None = None,
     ) -> Autoregressive:
-        """Least squares over all segments that are long enough."""
+        """Least squares over all segments that are long enough; ``theta`` by the likelihood of the
+        frequencies of at ``least`` so many cycles a row, 0 without.
+        """
         order = max(2, min(order, sum(len(v) for v, _, _ in residuals) // 50))
         pieces = [v[a:b] for v, _, segments in residuals for a, b in segments if b - a > 3 * order]
         if not pieces:
             everything = np.concatenate([v for v, _, _ in residuals])
             return cls((), max(float(np.var(everything)), LEAST_VARIANCE))
+        theta = moving_average.likeliest(pieces, order, least) if least else 0.0
+        if theta:
+            first = (moving_average.Innovations(theta, []).next(v[:, None])[:, 0] for v in pieces)
+            pieces = [v[order:] for v in first]
         # Normal equations: an SVD of the same rows takes ten times longer, and the noise floor
         # keeps them regular.
         whole = sum(_lagged_products(v, order) for v in pieces)
@@ -392,7 +436,8 @@ class Autoregressive:
         coefficients = np.linalg.solve(gram + least * np.eye(order), right)
         left = power - 2 * coefficients @ right + coefficients @ gram @ coefficients
         rows = sum(len(v) - order for v in pieces)
-        return cls(tuple(coefficients), max(float(left) / rows, LEAST_VARIANCE))
+        r = max(float(left) / rows, LEAST_VARIANCE)
+        return cls(tuple(coefficients), r, theta=theta)
 
 
 def _lagged_products(values: np.ndarray, order: int) -> np.ndarray:

@@ -58,6 +58,8 @@ def noise_at(fit: Fit, frequency: float, h: float) -> dict[int, RandomWalk]:
         else:
             step = t.h * t.band.stride
             lags = np.arange(1, len(n.coefficients) + 1)
-            gain = 1 - np.sum(n.coefficients * np.exp(-2j * np.pi * frequency * step * lags))
+            turned = np.exp(-2j * np.pi * frequency * step * lags)
+            back = np.exp(-2j * np.pi * frequency * step)
+            gain = (1 - np.sum(n.coefficients * turned)) / (1 - n.theta * back)
             made[i] = RandomWalk(float(n.r * step / abs(gain) ** 2) / h, n.k2)
     return made

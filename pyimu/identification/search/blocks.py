@@ -16,7 +16,7 @@ from pyimu.identification.fit.inputs import reference_input
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.response import predict, predict_each
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.identification.fit.whiten import WALKS, Autoregressive
 from pyimu.identification.search.form import BLOCK, UNUSED, since_power_on
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import OWN
@@ -77,26 +77,26 @@ class Blocks:
             out[i].append(_means(columns, number, full))
         return out
 
-    def white(
-        self, parts: Sequence[np.ndarray], noise: RandomWalk | Autoregressive
-    ) -> tuple[np.ndarray, float]:
+    def white(self, parts: Sequence[np.ndarray], noise: WALKS) -> tuple[np.ndarray, float]:
         """Means (blocks, c) of each trial, white with unit variance beside a noise of the rows, one
         after another, and the sum of the logarithms of the variances that they had.
         """
         made, total = [], 0.0
         for values, (_, _, _, full, count) in zip(parts, self.trials, strict=True):
-            of_means, time = RandomWalk(noise.slow.r / count, noise.k2), full * self.block
+            of_means, time = noise.in_means(count), full * self.block
             made.append(of_means.whiten(values, time, [(0, len(time))]))
             total += of_means.log_det(time, [(0, len(time))])
         return made[0] if len(made) == 1 else np.concatenate(made), total
 
-    def drawn(self, r: float, k2: np.ndarray, rng: np.random.Generator) -> list[np.ndarray]:
-        """Draws (blocks, k) of each trial's noise, one for each of the walks ``k2`` (k,)."""
+    def drawn(self, noise: WALKS, k2: np.ndarray, rng: np.random.Generator) -> list[np.ndarray]:
+        """Draws (blocks, k) of each trial's noise of the rows, one for each of the walks ``k2``
+        (k,).
+        """
         out = []
         for _, _, _, full, count in self.trials:
             steps = np.diff(full * self.block, prepend=full[:1] * self.block)
             walk = np.sqrt(steps[:, None] * k2) * rng.standard_normal((len(full), len(k2)))
-            white = np.sqrt(r / count) * rng.standard_normal((len(full), len(k2)))
+            white = _drawn(noise.in_means(count), len(full), len(k2), rng)
             out.append(np.cumsum(walk, axis=0) + white)
         return out
 
@@ -148,6 +148,13 @@ class Blocks:
         return max(
             (float(np.ptp(u[:, a], axis=0).max()) for u in self.inputs for a in at), default=0.0
         )
+
+
+def _drawn(noise: WALKS, rows: int, count: int, rng: np.random.Generator) -> np.ndarray:
+    """Draws (rows, count) of a noise of means without its walk."""
+    theta = noise.theta if isinstance(noise, Autoregressive) else 0.0
+    white = np.sqrt(noise.r) * rng.standard_normal((rows + (theta != 0.0), count))
+    return white[1:] - theta * white[:-1] if theta else white
 
 
 def basis(columns: np.ndarray) -> np.ndarray:

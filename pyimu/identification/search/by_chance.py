@@ -18,7 +18,7 @@ from scipy.special import logsumexp
 from pyimu.identification.fit.columns import Linear
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.noise_fit import declared_variances
-from pyimu.identification.fit.whiten import WALKS, RandomWalk
+from pyimu.identification.fit.whiten import WALKS
 from pyimu.identification.search.blocks import Blocks, beside
 from pyimu.identification.search.walks import Explained, Placed, Walk, allowed
 from pyimu.model.effect import Effect
@@ -48,18 +48,18 @@ class Chance:
         for i, (walks, likely) in self.walks.items():
             left = self.blocks.left[i]
             k2 = rng.choice([n.k2 for n in walks], DRAWS, p=np.exp(likely - logsumexp(likely)))
-            drawn = self.blocks.drawn(walks[0].r, k2, rng)
+            drawn = self.blocks.drawn(walks[0], k2, rng)
             out[i] = [Walk.of(self.blocks, n, left, drawn) for n in walks]
         for i in self.fit.noise.keys() - out.keys():
             out[i] = [self._known(i, rng)]
         return out
 
     @cached_property
-    def walks(self) -> dict[int, tuple[list[RandomWalk], np.ndarray]]:
+    def walks(self) -> dict[int, tuple[list[WALKS], np.ndarray]]:
         """Of each axis that may wander the walks that it may have, as ``allowed`` gives them."""
         declared = declared_variances(self.fit.sensor, self.fit.trials[0].h)[1]
         return {
-            i: allowed(self.blocks, noise.slow, self.blocks.left[i], float(declared[i]))
+            i: allowed(self.blocks, noise, self.blocks.left[i], float(declared[i]))
             for i, noise in self.fit.noise.items()
             if isinstance(noise, WALKS)
         }

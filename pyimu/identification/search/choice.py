@@ -28,6 +28,7 @@ from pyimu.identification.fit.scatter import (
 )
 from pyimu.identification.fit.walk import widening
 from pyimu.identification.fit.whiten import WALKS, Autoregressive
+from pyimu.identification.search.belief import unbelievable
 from pyimu.identification.search.by_chance import Chance
 from pyimu.identification.search.candidates import Group, equivalent, with_start
 from pyimu.identification.search.ceiling import (
@@ -173,7 +174,7 @@ def chosen_of(
     tried: Tried, options: list[Screened], gate: float
 ) -> tuple[Refined | None, tuple[str, ...]]:
     """The candidate that explains most once fitted in full, and the names of those that explain as
-    much.
+    much by a size that a sensor may have.
     """
     share = 0.0 if _takes_it_for_noise(tried.current) else LEAST_SHARE
     worth = [c for c in options[:MOST_REFINED] if c.gain > share * options[0].gain]
@@ -187,7 +188,8 @@ def chosen_of(
     plainest = min([best, *others], key=_how_plain)
     if plainest is not best:
         best = plainest_form(_forms_of(plainest, refined), derived)
-    close = [r.screened.effect for r in refined if r is not best and ahead(best, r) <= SET_WIDTH]
+    as_good = [r for r in refined if r is not best and ahead(best, r) <= SET_WIDTH]
+    close = [r.screened.effect for r in as_good if not unbelievable(r.fit, keys_of(r.screened))]
     if derived or CATALOGUE[best.screened.effect].delay is not None:
         # Of a reference that ends below the band, or its clock, another form may be the truth.
         worse = {f.screened.effect for f in forms if _leaves_much_less(best, f)}

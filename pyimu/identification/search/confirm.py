@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -66,6 +66,7 @@ class Evidence:
     makes of them, ``plain`` (2, 3) those of the held-out rows as they are; ``noise`` (3,) is what
     the noise of sensor and reference leaves of ``whole``, None where only the residual itself tells
     of it.
+    ``unsure`` (3,) are standard errors of ``noise`` and of what was taken off of references'.
     ``strays`` are mean and variance of what ``held`` falls less because the new model's
     coefficients are known only so well; beyond so many standard errors as ``chance_ends`` a rise is
     none by chance.
@@ -79,6 +80,7 @@ class Evidence:
     plain: np.ndarray
     whole: np.ndarray
     noise: np.ndarray | None
+    unsure: np.ndarray = field(default_factory=lambda: np.zeros(3))
     strays: tuple[float, float] = (0.0, 0.0)
     chance_ends: float = CHANCE
 
@@ -141,13 +143,17 @@ class Evidence:
     def share(self) -> float:
         """The largest share on any axis of what was left above the noise that is explained.
 
-        Without end where nothing was left above it. Such a sum may be negative, too: of what is
-        left the draw of a reference's noise is taken off, which is as large as that on the average.
+        Without end where nothing was left above it that its standard error does not account for.
+        Such a sum may be negative, too: of what is left the draw of a reference's noise is taken
+        off, which is as large as that on the average.
         """
         if self.noise is None:
             return np.inf
-        above = np.maximum(self.whole[0] - self.noise, 1e-300)
-        shares = (self.whole[0] - self.whole[1]) / above
+        above = self.whole[0] - self.noise
+        sure = above > CHANCE * self.unsure
+        if not sure.any():
+            return np.inf
+        shares = (self.whole[0] - self.whole[1]) / np.where(sure, above, 1e-300)
         return float(np.max(shares[self.whole[0] != 0.0], initial=0.0))
 
 
@@ -198,7 +204,8 @@ def evidence(old: Fit, new: Fit, held: Sequence[Trial]) -> Evidence:
     fitted = np.array([_squares(f) for f in (old, new)])
     both = {"held": held_out, "plain": plain, "whole": held_out + fitted}
     ends = DECLARED if wander_is_declared(new) else CHANCE
-    found = Evidence(**sums, **both, noise=_noise(new, held), chance_ends=ends)
+    noise, unsure = _noise(new, held), _unsure(new, held)
+    found = Evidence(**sums, **both, noise=noise, unsure=unsure, chance_ends=ends)
     return replace(found, strays=strayed(old, new, held)) if found.raises else found
 
 
@@ -335,3 +342,15 @@ def _noise(fit: Fit, held: Sequence[Trial]) -> np.ndarray | None:
         for i in t.axes:
             out[i] += rows * (own[i].r * share + reference[i])
     return out
+
+
+def _unsure(fit: Fit, held: Sequence[Trial]) -> np.ndarray:
+    """Standard errors (3,) of the sum of squares, over fitted and held-out rows, that was drawn of
+    the noise of references.
+    """
+    if not has_noise(fit):
+        return np.zeros(3)
+    rows = [sum(len(band_time(t)) for t in some) for some in (fit.trials, held)]
+    errors = np.mean([t.noise_error for t in fit.trials], axis=0)
+    drawn = squares(residual_changes(fit)) * (1.0 + rows[1] / max(rows[0], 1))
+    return np.where(np.isfinite(errors), errors, 0.0) * drawn

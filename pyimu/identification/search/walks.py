@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 from scipy.special import logsumexp
 
-from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
+from pyimu.identification.fit.whiten import WALKS
 from pyimu.identification.search.blocks import Blocks, basis
 
 FACTOR = 4.0
@@ -39,7 +39,7 @@ class Walk:
     (n, d) of the residual, white and without that, and their log-likelihood (d,) [nat].
     """
 
-    noise: RandomWalk | Autoregressive
+    noise: WALKS
     base: np.ndarray
     draws: np.ndarray
     likelihood: np.ndarray
@@ -48,7 +48,7 @@ class Walk:
     def of(
         cls,
         blocks: Blocks,
-        noise: RandomWalk | Autoregressive,
+        noise: WALKS,
         left: Sequence[np.ndarray],
         drawn: Sequence[np.ndarray],
     ) -> Walk:
@@ -64,16 +64,17 @@ class Walk:
 
 
 def allowed(
-    blocks: Blocks, noise: RandomWalk, left: Sequence[np.ndarray], declared: float
-) -> tuple[list[RandomWalk], np.ndarray]:
+    blocks: Blocks, noise: WALKS, left: Sequence[np.ndarray], declared: float
+) -> tuple[list[WALKS], np.ndarray]:
     """The walks that a residual allows or that are less, and the logarithms of their weights: the
     restricted likelihood, all sizes K alike beforehand (``fit/walk.py``) where none is ``declared``
     (K^2), else no less than that, and larger with the probability ``LARGER``.
     """
     rows = sum(len(one.time) for _, one, *_ in blocks.trials)
-    least = declared or noise.r / rows / blocks.length
+    r = noise.slow.r
+    least = declared or r / rows / blocks.length
     count = max(c for *_, c in blocks.trials)
-    most = FACTOR**BEYOND * max(noise.r / count / blocks.block, FACTOR * noise.k2)
+    most = FACTOR**BEYOND * max(r / count / blocks.block, FACTOR * noise.k2)
     number = 1 + int(np.ceil(np.log(most / least) / np.log(FACTOR)))
     tried, weights = [], []
     for k2 in least * FACTOR ** np.arange(max(number, 2)):
