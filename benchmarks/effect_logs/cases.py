@@ -3,7 +3,9 @@
 A case depends on its name, its number and the range of durations alone. It is called
 ``clean/rover``, ``one/8/gyro.g_sensitivity``, ``together/8/...``, ``pair/12/gyro``, ``size1/...``,
 ``unknown/30/...`` or ``strange/30/...``. A clean log holds gyro and accelerometer, one with an
-effect the sensor that has it: what the other is blamed for is counted by the clean ones.
+effect the sensor that has it: what the other is blamed for is counted by the clean ones. In
+``attitude/clean/tumble`` and ``attitude/30/gyro.coning`` the reference is an attitude with noise in
+each sample, as cameras give it, and no rate; the accelerometer has no reference.
 """
 
 from __future__ import annotations
@@ -12,14 +14,16 @@ import zlib
 from dataclasses import dataclass, replace
 
 import numpy as np
+from generators import rotation
 from generators.instrument import Sensor, any_sensor
 from generators.motion import rover, shaker, static, table, thermal_cycle, tumble
 
 from effect_logs import nameless, strange
 from effect_logs.chain import NAMED, TERMS, Chain, NotShown, at_typical, size_of_all, tuned
-from effect_logs.scene import HZ, Scene, new_scene
+from effect_logs.scene import HZ, new_scene
 from effect_logs.term import Case, Term
 
+TURNING = (rover, table, tumble, shaker)
 MOTIONS = {m.__name__: m for m in (table, rover, tumble, shaker, static, thermal_cycle)}
 SIZES = (8, 12, 30)
 LEAST = 13.0
@@ -31,6 +35,9 @@ WITHIN, MOST_DRAWS = 0.05, 30
 it does not."""
 
 MINUTES = (5.0, 20.0)
+ATTITUDE_NOISE = tuple(np.radians([0.01, 0.2]))
+"""rad; from the best to the worst of cameras."""
+
 DIGITS = 12
 """Decimals of a simulated reference, as files hold it."""
 
@@ -89,16 +96,28 @@ def names(row: str) -> list[str]:
         "size1": _of_effects("size1", False),
         "unknown_30": [f"unknown/30/{k}.{t.name}" for t in nameless.TERMS for k in t.sizes],
         "strange_30": [f"strange/30/{k}.{t.name}" for t in strange.TERMS for k in t.sizes],
+        "attitude_clean": [f"attitude/clean/{m.__name__}" for m in TURNING],
+        **{f"attitude_{s}": _beside_attitudes(s) for s in SIZES[1:]},
     }[row]
 
 
 SINGLE = tuple(f"one_{s}" for s in SIZES)
-ROWS = ("clean", *SINGLE, "together_8", "pair_12", "size1", "unknown_30", "strange_30")
+ATTITUDES = ("attitude_clean", *(f"attitude_{s}" for s in SIZES[1:]))
+ROWS = ("clean", *SINGLE, "together_8", "pair_12", "size1", "unknown_30", "strange_30", *ATTITUDES)
 
 
 def _of_effects(before: str, by_size: bool) -> list[str]:
     chosen = [t for t in NAMED if t.by_size or not by_size]
     return [f"{before}/{kind}.{t.name}" for t in chosen for kind in t.sizes]
+
+
+def _beside_attitudes(sigmas: int) -> list[str]:
+    """The gyro's effects that a noisy attitude shows: a size in sigmas of those that are random is
+    another, and a misalignment is its mounting as well.
+    """
+    chosen = [t for t in NAMED if t.by_size and t.gain is None and not t.known]
+    chosen = [t for t in chosen if "gyro" in t.sizes and t.name != "misalignment"]
+    return [f"attitude/{sigmas}/gyro.{t.name}" for t in chosen]
 
 
 def make(name: str, number: int, minutes: tuple[float, float] = MINUTES) -> Made:
@@ -123,10 +142,12 @@ def _drawn(wanted: Wanted, form: str, minutes, rng) -> Made:
     motions = wanted.motions if wanted.row == "together" else (str(rng.choice(wanted.motions)),)
     scenes = [new_scene(rng, MOTIONS[m], 60 * float(rng.uniform(*minutes))) for m in motions]
     sensor = any_sensor(rng)
+    beside = wanted.row == "attitude"
+    attitude = float(np.exp(rng.uniform(*np.log(ATTITUDE_NOISE)))) if beside else 0.0
     if not wanted.terms:
-        chains = _chains(sensor, scenes, form, rng)
+        chains = _chains(sensor, scenes, form, attitude, rng)
         return _made(wanted, form, motions, chains, {}, sensor, rng)
-    made = _with_effects(wanted, form, motions, scenes, sensor, rng)
+    made = _with_effects(wanted, form, motions, scenes, sensor, attitude, rng)
     if wanted.row != "size1" and any(not _near(t.size, wanted.sigmas) for t in made.truths):
         raise NotShown
     return made
@@ -138,8 +159,8 @@ def _near(size: float, sigmas: float) -> bool:
 
 def _wanted(name: str, rng) -> Wanted:
     row, *more = name.split("/")
-    if row == "clean":
-        return Wanted(row, 0.0, "", (), (more[0],))
+    if "clean" in (row, more[0]):
+        return Wanted(row, 0.0, "", (), (more[-1],))
     if row == "pair":
         terms = _two_of(more[1], rng)
         shared = [m for m in terms[0].motions if m in terms[1].motions]
@@ -167,7 +188,7 @@ def _form(wanted: Wanted, number: int) -> str:
     return ("declared", "undeclared")[number % 2] if both else "declared"
 
 
-def _chains(sensor: Sensor, scenes, form: str, rng) -> list[dict[str, Chain]]:
+def _chains(sensor: Sensor, scenes, form: str, attitude: float, rng) -> list[dict[str, Chain]]:
     """By log the chain of each kind of sensor; each log has a bias of its own."""
     out = []
     for scene in scenes:
@@ -175,17 +196,17 @@ def _chains(sensor: Sensor, scenes, form: str, rng) -> list[dict[str, Chain]]:
         for kind, spread in (("gyro", 0.01), ("accel", 0.2)):
             triad = replace(getattr(sensor, kind), bias=spread * rng.standard_normal(3))
             seed = int(rng.integers(2**32))
-            chains[kind] = Chain(kind, scene, triad, seed, free=form == "undeclared")
+            chains[kind] = Chain(kind, scene, triad, seed, form == "undeclared", attitude)
         out.append(chains)
     return out
 
 
-def _with_effects(wanted, form, motions, scenes, sensor: Sensor, rng) -> Made:
+def _with_effects(wanted, form, motions, scenes, sensor: Sensor, attitude, rng) -> Made:
     """Each effect is brought to its size alone, and the quietest sensor that any of them asks for
     is taken for all.
     """
     drawn = [(t, t.direction(rng), t.form(rng, scenes[0])) for t in wanted.terms]
-    chains = _chains(sensor, scenes, form, rng)
+    chains = _chains(sensor, scenes, form, attitude, rng)
     for _ in range(4):
         before = chains[0][wanted.kind].triad.n
         effects = {}
@@ -223,11 +244,13 @@ def _made(wanted: Wanted, form, motions, chains, effects, sensor: Sensor, rng) -
     logs, left = [], []
     for one in chains:
         measured = {}
-        for kind in (wanted.kind,) if effects else tuple(one):
-            own = {n: _moved(e, one[kind]) for n, e in effects.items()}
+        beside = one["gyro"].attitude
+        for kind in (wanted.kind,) if effects and not beside else tuple(one):
+            own = {n: _moved(e, one[kind]) for n, e in effects.items() if kind == wanted.kind}
             measured[kind] = one[kind].measure(own)
-        logs.append(_columns(one["gyro"].scene, measured, needs))
-        left.append({kind: _left(one[kind], effects, y) for kind, y in measured.items()})
+        logs.append(_columns(one["gyro"], measured, needs))
+        compared = {} if beside else measured
+        left.append({kind: _left(one[kind], effects, y) for kind, y in compared.items()})
     truths = tuple(_truth(wanted.kind, TERMS[n], e, chains) for n, e in effects.items())
     part = sensor.part_file(HZ)
     own = tuple(one[wanted.kind] for one in chains) if effects else ()
@@ -258,12 +281,9 @@ def _truth(kind: str, term: Term, case, chains) -> Truth:
     )
 
 
-def _columns(scene: Scene, measured, needs) -> dict[str, np.ndarray]:
-    rounded = {
-        "ref_rate": np.round(scene.rate, DIGITS),
-        "ref_force": np.round(scene.force, DIGITS),
-        "temperature": scene.warmth,
-    }
+def _columns(gyro: Chain, measured, needs) -> dict[str, np.ndarray]:
+    scene = gyro.scene
+    rounded = {"temperature": scene.warmth} | _reference(gyro)
     known = {
         "supply": lambda: scene.supply,
         "mag": lambda: scene.mag,
@@ -271,5 +291,16 @@ def _columns(scene: Scene, measured, needs) -> dict[str, np.ndarray]:
         "latitude": lambda: np.full(len(scene.time), scene.latitude),
         "ref_velocity": lambda: scene.velocity,
     }
-    also = {n: make() for n, make in known.items() if n in needs}
+    also = {n: make() for n, make in known.items() if n in needs and n not in rounded}
     return {"time": scene.time, **measured, **rounded, **also}
+
+
+def _reference(gyro: Chain) -> dict[str, np.ndarray]:
+    """Rate and force as they are, or attitudes with noise."""
+    scene = gyro.scene
+    if not gyro.attitude:
+        own = {"ref_rate": scene.rate, "ref_force": scene.force}
+        return {name: np.round(values, DIGITS) for name, values in own.items()}
+    rng = np.random.default_rng([gyro.seed, 11])
+    wrong = gyro.attitude * rng.standard_normal((len(scene.time), 3))
+    return {"ref_q": rotation.product(scene.attitude, rotation.from_vector(wrong))}

@@ -45,7 +45,8 @@ class NotShown(ValueError):
 @dataclass(frozen=True)
 class Chain:
     """One sensor of a kind in a scene. ``triad`` is what its part declares, ``free`` whether scale
-    factor and misalignment are estimated; ``seed`` makes its noise.
+    factor and misalignment are estimated; ``seed`` makes its noise. ``attitude`` is the standard
+    deviation [rad] of each attitude of a reference that has no rate.
     """
 
     kind: str
@@ -53,6 +54,7 @@ class Chain:
     triad: Triad
     seed: int
     free: bool = False
+    attitude: float = 0.0
 
     @cached_property
     def _noise(self) -> np.ndarray:
@@ -106,14 +108,14 @@ class Chain:
         """Products (k, k) of errors (n, 3, k) over the fitted rows, whitened, by axis."""
         rows = self.scene.fitted
         free = self.scene.own(self.kind)[:rows] if self.free else np.zeros((rows, 0))
-        return grams(errors[:rows], self.triad, self.scene.h, free)
+        return grams(errors[:rows], self.triad, self.scene.h, free, self.attitude)
 
     def quieter(self, share: float) -> Chain:
         """Raises NotShown where it would be quieter than ``QUIETEST``."""
         if share * self.triad.n.min() < QUIETEST:
             raise NotShown("it shows to a sensor alone that has no noise")
         triad = replace(self.triad, n=share * self.triad.n, k=share * self.triad.k)
-        return replace(self, triad=triad)
+        return replace(self, triad=triad, attitude=share * self.attitude)
 
 
 def size_of_all(chains: Sequence[Chain], term: Term, case: Case) -> float:

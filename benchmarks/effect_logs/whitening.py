@@ -5,7 +5,9 @@ With a bias that nobody knows, all that samples e_k tell of anything else stands
 differences, whose covariance T is tridiagonal: 2 r + k2 h, and -r beside. So the norm of an error
 after the innovations filter, less what the bias could explain of it, is the root of
 d' T^-1 d with d the differences of e; and free columns X are projected out by the Gram matrix of
-[e X] under T^-1 (generalised least squares).
+[e X] under T^-1 (generalised least squares). A rate that was made of attitudes has the differences
+of their noise in it: those of e have its second differences, whose covariance is 6, -4, 1 times
+their variance.
 
 An error that is random has no shape. Its size is the root of twice the log-likelihood that the true
 law is expected to gain over the declared one, which of an error with a shape is its norm; of
@@ -20,19 +22,24 @@ from scipy.linalg import lstsq, solveh_banded
 from scipy.optimize import minimize
 
 
-def grams(errors: np.ndarray, triad: Triad, h: float, free: np.ndarray) -> list[np.ndarray]:
+def grams(
+    errors: np.ndarray, triad: Triad, h: float, free: np.ndarray, attitude: float = 0.0
+) -> list[np.ndarray]:
     """Products (k, k) of errors (n, 3, k) in a sensor's noise, by axis: of one error its squared
     size in sigmas.
 
     ``free`` (n, p) are columns with free coefficients on every axis; a bias always is free.
+    ``attitude`` is the standard deviation [rad] of attitudes whose differences they are beside.
     """
     axes = zip(errors.transpose(1, 0, 2), triad.n**2 / h, triad.k**2 * h, strict=True)
-    return [_gram(e, r, step, free) for e, r, step in axes]
+    turned = (attitude / h) ** 2
+    return [_gram(e, r, step, turned, free) for e, r, step in axes]
 
 
-def _gram(e: np.ndarray, r: float, step: float, free: np.ndarray) -> np.ndarray:
+def _gram(e: np.ndarray, r: float, step: float, turned: float, free: np.ndarray) -> np.ndarray:
     d = np.diff(np.column_stack([e, free]), axis=0)
-    band = np.vstack([np.full(len(d), -r), np.full(len(d), 2 * r + step)])
+    diagonals = turned, -r - 4 * turned, 2 * r + step + 6 * turned
+    band = np.vstack([np.full(len(d), v) for v in diagonals])
     gram = d.T @ solveh_banded(band, d, check_finite=False)
     k = e.shape[1]
     own, cross, other = gram[:k, :k], gram[k:, :k], gram[k:, k:]
