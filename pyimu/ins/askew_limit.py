@@ -12,6 +12,8 @@ from itertools import combinations
 
 import numpy as np
 
+from pyimu.errors import Finding
+from pyimu.recording.columns import column_names
 from pyimu.recording.quality.clipping import touched_level
 from pyimu.recording.quality.resolution import resolution
 from pyimu.recording.recording import Recording
@@ -39,16 +41,18 @@ of the range, five more lie in one by chance in 1 of 1e7 logs."""
 
 def with_equal_limits(recording: Recording) -> Recording:
     """The recording, of which the forces at a limit that a correction moved are equal, as they
-    would be without it; itself where no limit is seen so.
+    would be without it, with a finding ``clipping`` of each; itself where no limit is seen so.
     """
-    accel, limits = recording.accel.copy(), []
-    for axis in range(3):
-        for sign in (-1.0, 1.0):
+    accel, limits, found = recording.accel.copy(), [], []
+    for axis, name in enumerate(column_names("accel")):
+        for sign, side in ((-1.0, "low"), (1.0, "high")):
             force = sign * recording.accel
             rows = _in_plane(force, axis)
             if rows.any():
                 limits.append(np.nanmax(force[:, axis]))
-                accel[rows, axis] = sign * limits[-1]
+                accel[rows, axis] = level = sign * limits[-1]
+                detail = {"side": side, "level": float(level)}
+                found.append(Finding("clipping", name, int(rows.sum()), detail))
     if not limits:
         return recording
     limit = min(limits)
@@ -57,7 +61,7 @@ def with_equal_limits(recording: Recording) -> Recording:
         if np.nanmax(size) <= (1 + MOVED) * limit:
             at = size >= (1 - MOVED) * limit
             column[at] = np.sign(column[at]) * limit
-    return replace(recording, accel=accel)
+    return replace(recording, accel=accel, findings=(*recording.findings, *found))
 
 
 def _in_plane(force: np.ndarray, axis: int) -> np.ndarray:

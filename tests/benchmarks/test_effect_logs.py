@@ -55,6 +55,22 @@ def test_the_norm_in_white_noise_is_the_root_of_the_sum_of_squares():
     np.testing.assert_allclose(np.sqrt(found), wanted, rtol=1e-9)
 
 
+def test_the_norm_beside_attitudes_is_that_of_their_noise_differentiated():
+    """By dense algebra: white noise, a walk from anywhere, and the differences of white angles, the
+    first and the last of which are known no better than the others.
+    """
+    n, wrong = 150, 2e-3
+    error, level = np.random.default_rng(3).standard_normal((n, 3)), np.ones((n, 1))
+    turned = np.diff(np.eye(n + 1), axis=0) / H
+    for i, gram in enumerate(whitening.grams(error[:, :, None], TRIAD, H, level[:, :0], wrong)):
+        walk = np.minimum.outer(np.arange(n), np.arange(n)) * TRIAD.k[i] ** 2 * H
+        noise = walk + TRIAD.n[i] ** 2 / H * np.eye(n) + wrong**2 * turned @ turned.T
+        columns = np.column_stack([error[:, i], level])
+        own = columns.T @ np.linalg.solve(noise, columns)
+        wanted = own[0, 0] - own[0, 1] ** 2 / own[1, 1]
+        np.testing.assert_allclose(gram[0, 0], wanted, rtol=1e-8)
+
+
 def test_a_log_tells_an_effect_from_another_by_what_that_leaves():
     """Of an error that the other effect makes as well nothing is left; of one that has nothing to
     do with it half its squared size.

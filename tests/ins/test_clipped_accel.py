@@ -20,7 +20,7 @@ from walks import G, walk
 import pyimu
 from pyimu import Recording
 from pyimu.ins import run
-from pyimu.ins.askew_limit import with_equal_limits
+from pyimu.ins.askew_limit import LEAST, with_equal_limits
 from pyimu.ins.known import _with_true_limit, known_part
 from pyimu.ins.stops import rest_at_start
 from pyimu.model.sensor import Sensor
@@ -99,6 +99,8 @@ def test_what_stays_at_the_limit_is_no_shock():
     assert np.abs(found.vector("velocity")).max() < 10.0
 
 
+OF_AXES = [(i, side) for i in range(3) for side in ("low", "high")]
+
 CORRECTION = np.eye(3) + 0.01 * np.array([[0.2, -1.1, 0.7], [0.9, -0.4, -0.8], [-0.6, 1.0, 0.5]])
 """What a calibration made of the axes; a hundredth of each is in the others."""
 
@@ -110,8 +112,12 @@ def test_a_limit_that_a_correction_of_the_axes_moved_is_seen(limit):
     log, own = stepped(5000, limit)
     log = replace(log, accel=log.accel @ CORRECTION.T + 0.2)
     told = with_equal_limits(log)
+    seen = {(f.column, f.detail["side"]) for f in told.findings if f.kind == "clipping"}
     raw = np.linalg.solve(CORRECTION, (log.accel - 0.2).T).T
     clipped = np.abs(raw) >= limit * (1 - 1e-9)
+    sides = {"low": raw < 0, "high": raw > 0}
+    often = {(f"accel_{'xyz'[i]}", s): (clipped & sides[s])[:, i].sum() for i, s in OF_AXES}
+    assert {k for k, n in often.items() if n >= LEAST} <= seen <= {k for k, n in often.items() if n}
     most = np.abs(told.accel).max()
     np.testing.assert_array_equal(np.abs(told.accel[clipped]), most)
     assert np.mean(np.abs(told.accel) == most) < 2 * clipped.mean()
