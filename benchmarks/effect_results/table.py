@@ -82,7 +82,14 @@ def rows(records: Iterable[Record]) -> list[Row]:
     out.append(_share("unknown, 30 sigmas: given a formula", formulas, _formula, 0.9))
     memory = by_row["strange/30"]
     out.append(_share("no formula's, 30 sigmas: named with confidence", memory, _named, 0.02, True))
-    return [*out, _share("no formula's, 30 sigmas: said, or a formula", memory, _right, 0.95)]
+    out.append(_share("no formula's, 30 sigmas: said, or a formula", memory, _right, 0.95))
+    out.append(_blamed("clean, beside noisy attitudes", by_row["attitude/clean"]))
+    beside = {"attitude/12": 0.98, "attitude/30": 1.0}
+    text = "beside noisy attitudes, {} sigmas"
+    return [
+        *out,
+        *(_share(text.format(k.split("/")[1]), by_row[k], _right, v) for k, v in beside.items()),
+    ]
 
 
 def _share(text, records, counts: Callable[[Record], bool], wanted, at_most=False) -> Row:
@@ -90,8 +97,11 @@ def _share(text, records, counts: Callable[[Record], bool], wanted, at_most=Fals
 
 
 def _clean(records, motion: str) -> Row:
-    own = [r for r in records if r["name"].endswith(f"/{motion}")]
-    return _share(f"clean, {motion}: blamed", own, lambda r: bool(named(r)), 0.01, True)
+    return _blamed(f"clean, {motion}", [r for r in records if r["name"].endswith(f"/{motion}")])
+
+
+def _blamed(text: str, records) -> Row:
+    return _share(f"{text}: blamed", records, lambda r: bool(named(r)), 0.01, True)
 
 
 def _right(record: Record) -> bool:
