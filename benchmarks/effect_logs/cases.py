@@ -239,7 +239,8 @@ def _moved(case, chain: Chain):
 def _made(wanted: Wanted, form, motions, chains, effects, sensor: Sensor, rng) -> Made:
     needs = {n for t in wanted.terms for n in t.needs}
     for extra in (("supply",), ("mag",), ("ref_q", "latitude", "ref_velocity")):
-        if rng.random() < 0.25:
+        # Velocities without noise beside attitudes with it are no reference that anybody has.
+        if rng.random() < 0.25 and not (wanted.row == "attitude" and "ref_q" in extra):
             needs |= {*extra}
     logs, left = [], []
     for one in chains:

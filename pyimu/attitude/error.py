@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -19,13 +19,15 @@ class AttitudeError:
 
     ``time`` (m,) s; ``total`` (m,) rad, angle of the error rotation; ``heading`` (m,) rad, its part
     about the vertical; ``inclination`` (m,) rad, angle between the two verticals, in which no
-    heading is. All are only at rows that the reference covers.
+    heading is; ``tilt`` (m, 2) rad, which way it goes in the reference's world. All are only at
+    rows that the reference covers.
     """
 
     time: np.ndarray
     total: np.ndarray
     heading: np.ndarray
     inclination: np.ndarray
+    tilt: np.ndarray
 
     @property
     def rms(self) -> float:
@@ -51,9 +53,8 @@ class AttitudeError:
     def at(self, time: np.ndarray) -> AttitudeError:
         """The rows whose times are among ``time`` (k,)."""
         rows = np.isin(self.time, time)
-        return AttitudeError(
-            self.time[rows], self.total[rows], self.heading[rows], self.inclination[rows]
-        )
+        each = (getattr(self, f.name)[rows] for f in fields(self))
+        return AttitudeError(*each)
 
     def powers(self, span: float) -> np.ndarray:
         """Mean square [rad^2] in each ``span`` s (k,)."""
@@ -68,15 +69,19 @@ class AttitudeError:
 def error_against(time: np.ndarray, q: np.ndarray, reference: Rotation) -> AttitudeError:
     """The error of the attitudes ``q`` (m, 4) at ``time`` (m,) against as many of a reference."""
     if not len(time):
-        return AttitudeError(*(np.zeros(0),) * 4)
+        return AttitudeError(*(np.zeros(0),) * 4, np.zeros((0, 2)))
     error = Rotation.from_quat(q, scalar_first=True) * reference.inv()
     error = Rotation.from_euler("z", -error[0].as_euler("ZYX")[0]) * error
     up = np.array([0.0, 0.0, 1.0])
+    seen = error.apply(up)
+    inclination = angle_between(seen, up)
+    level = np.maximum(np.hypot(*seen.T[:2]), 1e-300)
     return AttitudeError(
         time,
         error.magnitude(),
         np.unwrap(error.as_euler("ZYX")[:, 0]),
-        angle_between(error.apply(up), up),
+        inclination,
+        seen[:, :2] * (inclination / level)[:, None],
     )
 
 

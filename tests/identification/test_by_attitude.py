@@ -6,7 +6,7 @@ import pytest
 from pyimu.attitude.error import AttitudeError
 from pyimu.identification.close import close
 from pyimu.identification.errors import by_attitude
-from pyimu.identification.errors.by_attitude import CHANCE, _by_chance
+from pyimu.identification.errors.by_attitude import CHANCE, _by_chance, _chance, _meets
 from pyimu.identification.errors.held_out import WINDOW
 from pyimu.recording.recording import Recording
 
@@ -15,11 +15,12 @@ ROWS, HELD = 6000, 0.3
 WHITE = 1e-3
 
 
-def error(levels) -> AttitudeError:
-    """Ten rows in each of as many windows as there are ``levels`` [rad]."""
+def error(levels, way=0.0) -> AttitudeError:
+    """Ten rows in each of as many windows as there are ``levels`` [rad], tilted one ``way``."""
     total = np.repeat(levels, 10)
     time = np.arange(len(total)) * WINDOW / 10
-    return AttitudeError(time, total, total, total)
+    tilt = total[:, None] * [np.cos(way), np.sin(way)]
+    return AttitudeError(time, total, total, total, tilt)
 
 
 def test_an_error_that_scatters_alike_grows_by_chance_as_often_as_is_said():
@@ -27,13 +28,46 @@ def test_an_error_that_scatters_alike_grows_by_chance_as_often_as_is_said():
     rng, found = np.random.default_rng(3), 0
     for _ in range(RUNS):
         before, after = (np.sqrt(0.02**2 + 4e-5 * rng.standard_normal(6)) for _ in range(2))
-        found += not _by_chance({"a": error(before)}, {"a": error(after)}, ["a"])
+        found += _chance({"a": error(before)}, {"a": error(after)}, ["a"]) <= CHANCE
     assert abs(found / RUNS - CHANCE) < 4 * np.sqrt(CHANCE * (1 - CHANCE) / RUNS)
 
 
 def test_an_error_that_grows_in_every_window_is_no_chance():
     before = 0.02 + 0.005 * np.arange(8)
     assert not _by_chance({"a": error(before)}, {"a": error(1.04 * before)}, ["a"])
+
+
+def tilted(*ways):
+    """Errors of 20 mrad in logs of eight windows that a change of 5 mrad turned so, by the angle
+    [rad] between it and the error that is left, before and after.
+    """
+    before, after = {}, {}
+    for k, way in enumerate(ways):
+        left = 0.02 * np.array([1.0, 0.0])
+        was = left - 0.005 * np.array([np.cos(way), np.sin(way)])
+        levels = np.linalg.norm(was) * np.ones(8), 0.02 * np.ones(8)
+        before[k] = error(levels[0], np.arctan2(was[1], was[0]))
+        after[k] = error(levels[1])
+    return before, after, list(before)
+
+
+@pytest.mark.parametrize(
+    ("ways", "chance"),
+    [((1.0,), True), ((0.1,), False), ((0.5, 0.5, 0.5), False), ((0.2, 1.5, 1.3), True)],
+)
+def test_a_change_that_goes_the_way_of_what_is_left_is_chance_in_one_log(ways, chance):
+    """An accelerometer's error tilts all the time: a gyro's effect changes that any way."""
+    before, after, names = tilted(*ways)
+    assert _by_chance(before, after, names) is chance
+
+
+def test_of_changes_any_way_as_many_are_no_chance_as_is_said():
+    rng = np.random.default_rng(4)
+    for logs in (1, 6):
+        found = sum(
+            not _meets(*tilted(*rng.uniform(-np.pi, np.pi, logs))) > CHANCE for _ in range(RUNS)
+        )
+        assert abs(found / RUNS - CHANCE) < 4 * np.sqrt(CHANCE * (1 - CHANCE) / RUNS)
 
 
 def test_two_windows_cannot_tell():

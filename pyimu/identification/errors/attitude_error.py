@@ -32,7 +32,7 @@ def attitude_error(
 
 def beside(
     recording: Recording,
-    part: Part,
+    part: Part | None,
     mounting: np.ndarray,
     start: int = 0,
     clock: Clock | None = None,

@@ -23,7 +23,7 @@ from pyimu.identification.search.forward import Investigation, less_of_baseline,
 from pyimu.identification.search.screen import fitted_dispersion
 from pyimu.identification.verdict.fates import TAKEN_BACK
 from pyimu.identification.verdict.verdict import WORSE
-from pyimu.laws import t
+from pyimu.laws import norm, t
 from pyimu.model.catalogue import WALK
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
@@ -48,7 +48,7 @@ def settled(
     if "gyro" in found:
         found = found | {"gyro": with_better_heading(found["gyro"])}
     model, inv = model_of(start, declared, found), found.get("gyro")
-    logs, leaning = _levelled(_as_filed(model.before, declared), inv, logs)
+    logs, leaning = _levelled(inv, logs)
     while True:
         old, new = (_as_filed(p, declared) for p in (model.before, model.after))
         before, after = attitudes(old, inv, logs, before=True), attitudes(new, inv, logs)
@@ -76,12 +76,12 @@ def settled(
 
 
 def _levelled(
-    part: Part, inv: Investigation | None, logs: list[Recording]
+    inv: Investigation | None, logs: list[Recording]
 ) -> tuple[list[Recording], tuple[str, ...]]:
-    """The logs with references whose worlds are level by the filter with a part, and what is to be
-    said of those that were not.
+    """The logs with references whose worlds are level, and what is to be said of those that were
+    not.
     """
-    of = worlds(part, inv, logs)
+    of = worlds(inv, logs)
     level = [of[r.name].levelled(r) if r.name in of else r for r in logs]
     return level, tuple(
         f"the world of ref_q in {name} is not level: {world.said}; it was turned to compare the "
@@ -193,10 +193,32 @@ def _pooled(errors: dict[str, AttitudeError], names: list[str]) -> float:
 def _by_chance(
     before: dict[str, AttitudeError], after: dict[str, AttitudeError], names: list[str]
 ) -> bool:
-    """Whether the error grew by no more than it differs from window to window; a few windows cannot
-    tell.
+    """Whether the error grew by no more than it differs from window to window, where a few windows
+    cannot tell; or by a change that meets the error that is left by chance.
     """
-    return _chance(before, after, names) > CHANCE
+    return _chance(before, after, names) > CHANCE or _meets(before, after, names) > CHANCE
+
+
+def _meets(
+    before: dict[str, AttitudeError], after: dict[str, AttitudeError], names: list[str]
+) -> float:
+    """How often a change of the tilt would go as much the way of the error that is left, if the two
+    had nothing to do with each other.
+
+    An accelerometer's constant error tilts all of a log one way. What is right of a gyro changes
+    the tilt any way: where it did away with a part of that by chance, the error grows, in each
+    window alike. So a log tells one direction, uniform over the circle, whose cosine has a mean
+    square of a half.
+    """
+    cosines = []
+    for n in names:
+        was, now = before[n].at(after[n].time), after[n].at(before[n].time)
+        change = now.tilt - was.tilt
+        size = np.linalg.norm(change) * np.linalg.norm(now.tilt)
+        cosines.append(float(np.sum(change * now.tilt) / size) if size else 1.0)
+    if len(cosines) == 1:
+        return float(np.arccos(min(cosines[0], 1.0)) / np.pi)
+    return float(norm.sf(sum(cosines) * np.sqrt(2.0 / len(cosines))))
 
 
 def _chance(

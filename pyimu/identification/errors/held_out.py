@@ -253,17 +253,18 @@ def attitudes(
     return found
 
 
-def worlds(part: Part, inv: Investigation | None, logs: list[Recording]) -> dict[str, Leaning]:
+def worlds(inv: Investigation | None, logs: list[Recording]) -> dict[str, Leaning]:
     """The worlds of the logs' reference attitudes that are not level, by log, as the attitude
-    filter with a part shows them.
+    filter without a part shows them: one whose gyro drifts unlike the part says would go off, and
+    take the world with it.
     """
-    compared = {r.name: _beside(part, inv, r) for r in logs}
+    compared = {r.name: _beside(None, inv, r) for r in logs}
     found = {name: leaning(*c[1:]) for name, c in compared.items() if c is not None}
     return {name: world for name, world in found.items() if world is not None}
 
 
 def _beside(
-    part: Part, inv: Investigation | None, r: Recording, before: bool = False
+    part: Part | None, inv: Investigation | None, r: Recording, before: bool = False
 ) -> Compared | None:
     """The filter's attitudes beside the reference's; None of a log that does not show them."""
     held = None if inv is None else next((t for t in inv.held if t.name == r.name), None)
