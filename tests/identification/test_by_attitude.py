@@ -45,9 +45,9 @@ def tilted(*ways):
     for k, way in enumerate(ways):
         left = 0.02 * np.array([1.0, 0.0])
         was = left - 0.005 * np.array([np.cos(way), np.sin(way)])
-        levels = np.linalg.norm(was) * np.ones(8), 0.02 * np.ones(8)
-        before[k] = error(levels[0], np.arctan2(was[1], was[0]))
-        after[k] = error(levels[1])
+        levels = 1.0 + 0.001 * np.arange(8)
+        before[k] = error(np.linalg.norm(was) * levels, np.arctan2(was[1], was[0]))
+        after[k] = error(0.02 * levels)
     return before, after, list(before)
 
 
