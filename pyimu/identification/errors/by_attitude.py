@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyimu.attitude.error import AttitudeError
+from pyimu.attitude.error import LOST, AttitudeError
 from pyimu.identification.errors.heading_error import FAR, with_better_heading
 from pyimu.identification.errors.held_out import WINDOW, attitudes, worlds
 from pyimu.identification.fit.errors_in_variables import equations
@@ -58,8 +58,7 @@ def settled(
         if not kept:
             return found, model, None, said
         was, now = (_pooled(e, kept) for e in (before, after))
-        chance = now < FAR * was and _by_chance(before, after, kept)
-        worse = now > WORSE * was and not chance
+        worse = now > WORSE * was and not _by_chance(before, after, kept)
         worst = _worst(new, inv, logs, kept, now) if worse else None
         # Scale factors that are left out may make all the difference.
         bare = _less_calibration(start, declared, found, logs, kept, after)
@@ -194,9 +193,12 @@ def _by_chance(
     before: dict[str, AttitudeError], after: dict[str, AttitudeError], names: list[str]
 ) -> bool:
     """Whether the error grew by no more than it differs from window to window, where a few windows
-    cannot tell; or by a change that meets the error that is left by chance.
+    cannot tell, and not far; or by a change that meets the error that is left by chance, short of
+    an attitude that is lost.
     """
-    return _chance(before, after, names) > CHANCE or _meets(before, after, names) > CHANCE
+    was, now = (_pooled(e, names) for e in (before, after))
+    as_windows = now < FAR * was and _chance(before, after, names) > CHANCE
+    return as_windows or (now < LOST and _meets(before, after, names) > CHANCE)
 
 
 def _meets(
