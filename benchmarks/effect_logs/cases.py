@@ -250,6 +250,7 @@ def _made(wanted: Wanted, form, motions, chains, effects, sensor: Sensor, rng) -
             own = {n: _moved(e, one[kind]) for n, e in effects.items() if kind == wanted.kind}
             measured[kind] = one[kind].measure(own)
         logs.append(_columns(one["gyro"], measured, needs))
+        # In the band of attitudes no residual is that of the samples.
         compared = {} if beside else measured
         left.append({kind: _left(one[kind], effects, y) for kind, y in compared.items()})
     truths = tuple(_truth(wanted.kind, TERMS[n], e, chains) for n, e in effects.items())

@@ -41,8 +41,10 @@ of the range, five more lie in one by chance in 1 of 1e7 logs."""
 
 def with_equal_limits(recording: Recording) -> Recording:
     """The recording, of which the forces at a limit that a correction moved are equal, as they
-    would be without it, with a finding ``clipping`` of each; itself where no limit is seen so.
+    would be without it, with a finding ``clipping`` of each that has none; itself where no limit is
+    seen so.
     """
+    known = {(f.column, f.detail.get("side")) for f in recording.findings if f.kind == "clipping"}
     accel, limits, found = recording.accel.copy(), [], []
     for axis, name in enumerate(column_names("accel")):
         for sign, side in ((-1.0, "low"), (1.0, "high")):
@@ -52,7 +54,8 @@ def with_equal_limits(recording: Recording) -> Recording:
                 limits.append(np.nanmax(force[:, axis]))
                 accel[rows, axis] = level = sign * limits[-1]
                 detail = {"side": side, "level": float(level)}
-                found.append(Finding("clipping", name, int(rows.sum()), detail))
+                if (name, side) not in known:
+                    found.append(Finding("clipping", name, int(rows.sum()), detail))
     if not limits:
         return recording
     limit = min(limits)

@@ -19,6 +19,7 @@ from walks import G, walk
 
 import pyimu
 from pyimu import Recording
+from pyimu.errors import Finding
 from pyimu.ins import run
 from pyimu.ins.askew_limit import LEAST, with_equal_limits
 from pyimu.ins.known import _with_true_limit, known_part
@@ -123,6 +124,13 @@ def test_a_limit_that_a_correction_of_the_axes_moved_is_seen(limit):
     assert np.mean(np.abs(told.accel) == most) < 2 * clipped.mean()
     track = run(log, method="filter", heading0=first_heading(own)).tracks["filter"]
     assert square(track, own.place[-1]) < chi2.isf(1e-4, 3)
+
+
+def test_a_limit_that_the_log_was_said_to_have_is_said_once():
+    log, _ = stepped(5000, 6 * G)
+    said = Finding("clipping", "accel_x", 25, {"side": "low", "level": -6 * G})
+    assert [f.column for f in with_equal_limits(log).findings] == ["accel_x"]
+    assert with_equal_limits(replace(log, findings=(said,))).findings == (said,)
 
 
 def test_a_sample_that_is_missing_on_another_axis_hides_no_limit():
