@@ -117,6 +117,51 @@ def test_a_slow_turn_of_a_gyro_whose_bias_nobody_knows_is_no_rest(rate, off, n_a
         assert (np.abs(output(block, y, "gyro_bias")[-1] - bias[-1]) < 0.04).all()
 
 
+@pytest.mark.parametrize("k", [2e-6, 3e-5])
+def test_a_drift_that_the_part_is_silent_of_is_no_turn_where_gravity_stands_still(k):
+    """A bias that drifts by a sixth of a degree per second about a level axis, of a part whose walk
+    is far less: the body stops, and gravity, which such a turn would move, does not move.
+    """
+    n_accel, drift = 2e-3, np.array([0.0, 3e-3, 0.0])
+    block = attitude_ukf(part(3e-4, k, n_accel))
+    world = drive(np.vstack([np.zeros((1500, 3)), stop_and_go()]))
+    since = np.clip((H * np.arange(len(world.rate)) - 15.0) / 10.0, 0.0, 1.0)[:, None]
+    stops, goes = 1500 + STOPS, 1500 + GOES
+    for seed in range(3):
+        rng = np.random.default_rng(seed)
+        noise = rng.standard_normal((2, *world.rate.shape)) / np.sqrt(H)
+        gyro = world.inertial + since * drift + 3e-4 * noise[0]
+        accel = world.force + n_accel * noise[1]
+        y, _ = block.run(inputs(len(gyro), gyro=gyro, accel=accel), p=parameters(block, std0=STD0))
+        assert output(block, y, "at_rest")[stops + 800 : goes].all()
+        off = error(output(block, y, "q"), world.attitude)[goes - 1, :2]
+        std = output(block, y, "std")[goes - 1]
+        assert np.sum((off / std[:2]) ** 2) < chi2.ppf(1 - OUTSIDE, 2)
+        wrong = output(block, y, "gyro_bias")[goes - 1] - drift
+        assert np.sum((wrong / std[3:]) ** 2) < chi2.ppf(1 - OUTSIDE, 3)
+
+
+def test_an_even_turn_that_leans_as_it_is_pushed_is_no_rest():
+    """An aircraft that turns by 1.1 deg/s at 50 m/s: rate and force stand still in its axes, and
+    by the force the turn is partly about a level axis.
+    """
+    rate, speed, n = 0.02, 50.0, 6000
+    lean = np.arctan(rate * speed / GRAVITY) * np.clip(H * np.arange(n) / 5 - 4, 0, 1)
+    yaw = H * np.cumsum(rate * (lean > 0))
+    attitude = Rotation.from_euler("ZX", np.column_stack([yaw, -lean]))
+    inward = Rotation.from_euler("Z", yaw[:, None]).apply([0.0, -1.0, 0.0])
+    pushed = GRAVITY * np.tan(lean)[:, None] * inward
+    force = attitude.apply(pushed + [0, 0, GRAVITY], inverse=True)
+    turns = (attitude[:-1].inv() * attitude[1:]).as_rotvec() / H
+    noise = np.random.default_rng(1).standard_normal((2, n, 3)) / np.sqrt(H)
+    gyro = np.vstack([turns[:1], turns]) + 3e-4 * noise[0]
+    block = attitude_ukf(part(3e-4, 2e-6, 2e-3))
+    u = inputs(n, gyro=gyro, accel=force + 2e-3 * noise[1])
+    y, _ = block.run(u, p=parameters(block, std0=STD0))
+    assert output(block, y, "at_rest")[500:1900].all()
+    assert not output(block, y, "at_rest")[2600:].any()
+
+
 def test_a_body_that_is_held_still_may_sway(block):
     """A sway of 0.3 deg at half a hertz is no error of the heading: it is followed."""
     t = H * np.arange(GOES - STOPS)[:, None]

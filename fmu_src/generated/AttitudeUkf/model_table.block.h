@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{38ed74ef-4126-f57e-af15-a37ba1fdf65f}"
-#define MODEL_TOKEN_FMI3 "{ff606b0c-c7d5-225d-d9f0-706838a497f2}"
+#define MODEL_TOKEN_FMI2 "{ad2f1acc-1743-7255-fe20-8d84d9744308}"
+#define MODEL_TOKEN_FMI3 "{b419e695-3d0a-e097-dadc-6f0e724f970b}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -18,23 +18,23 @@ enum {
     N_PARAMETERS = 63,
     N_OUTPUTS = 21,
     N_STATES = 350,
-    N_CONSTANTS = 106,
+    N_CONSTANTS = 107,
     N_NOISE = 0,
     N_VARIABLES = 78
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3090 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3091 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 791014 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 783944 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 791014 };
+enum { MODEL_MOST_SAMPLES = 783944 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 791014.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 783944.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

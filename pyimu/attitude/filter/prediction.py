@@ -40,6 +40,7 @@ from pyimu.attitude.filter.stillness import (
     sways,
     turns,
     turns_unseen,
+    wrong_bias,
 )
 from pyimu.attitude.filter.stillness import followed as still_followed
 from pyimu.attitude.filter.stillness import kept as still_kept
@@ -262,7 +263,11 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     before_it, hidden = _hidden_turn(at, still, x)
     unseen, both = SLOW**2 * (unseen + begun) + still.span**2 * hidden, (1 - unsure, doubt)
     kept = safe, later, calm, before_it
-    return Rest(still, resting, *both, moving, x, forgotten + hidden, unseen, *kept)
+    forgotten = forgotten + hidden
+    if at.sleeps:
+        wrong = resting * _wrong_bias(at, before, x)
+        forgotten, unseen = forgotten + wrong, unseen + still.span**2 * wrong
+    return Rest(still, resting, *both, moving, x, forgotten, unseen, *kept)
 
 
 def _hidden_turn(at: Instant, still: Stillness, x: Estimate):
@@ -277,6 +282,14 @@ def _hidden_turn(at: Instant, still: Stillness, x: Estimate):
     anew = 1 - (before.span > 0) * (1 - stands(before, noise))
     known = ca.if_else(anew, own, at.memory.known)
     return known, turns_unseen(before, still, noise, known, own) * up**2
+
+
+def _wrong_bias(at: Instant, still: Stillness, x: Estimate):
+    """``wrong_bias`` of the estimate ``x``, by the samples of a body that is ``still``."""
+    density = ca.fmax(still.density, _density(at.settings))
+    noise, rate = white_variance(at.settings, at.h), still.slow - x.bias - at.earth
+    known, gravity = x.covariance[3:6, 3:6], at.settings.scalar["gravity"]
+    return wrong_bias(still, rate, known, density, gravity, noise, at.h)
 
 
 def _drove(memory: Memory):
@@ -300,7 +313,8 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
     still, span = rest.still, ca.fmin(rest.still.span, 2 * SLOW)
     rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
     up, known, scalar = vertical(x), x.covariance[3:6, 3:6], at.settings.scalar
-    found = is_rest(rate, known, up, noise, span, still.rests > 0)
+    believed = known + _wrong_bias(at, still, x) * ca.SX.eye(3)
+    found = is_rest(rate, believed, up, noise, span, still.rests > 0)
     unknown = ca.dot(up, known @ up) > UNKNOWN**2
     moves = turns(still, scalar["gravity"], white_variance(at.settings, at.h), at.h)
     now = begins(at.memory.stillness, still, scalar["rest_time"], unknown, moves, at.h)

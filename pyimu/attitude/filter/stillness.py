@@ -68,6 +68,15 @@ UNKNOWN, LONGER, LEAST_TURN = 2e-3, 2.5, 6e-4
 would pass for a rest unless gravity moves in the body's axes. That it does not shows in so long a
 time to a thirtieth of a degree per second, the last."""
 
+TELLS, MOST_FORCE = 2.0, 1.2
+"""How often what ``turns`` can tell a level rate must be, so that gravity that stands still in the
+body's axes excludes it: noise hides such a turn with four standard deviations. And the most force
+over gravity. A vehicle that turns evenly, leaning as it is pushed, turns about the vertical alone,
+which is farther from a force of that size than the level is only beyond the root of 2."""
+
+LEAST_FORCE = 1e-6
+"""(m/s^2)^2; a smaller one has no direction."""
+
 STEADY, SLOW_SWAY = 0.1, 0.5
 """Shares of a sample's tolerance that are those of the mean, of force and rate: gravity that turns
 in the body's axes by 2e-3 rad changes the mean force by 0.02 m/s^2. The mean shows that a motion
@@ -200,9 +209,36 @@ def turns(x: Stillness, gravity, noise, h):
 
     ``noise`` (3,) (m/s^2)^2 is the variance of a sample of the accelerometer.
     """
+    return ca.sumsqr(x.fast_force - x.slow_force) > _told_turn(x, gravity, noise, h)[1]
+
+
+def _told_turn(x: Stillness, gravity, noise, h):
+    """By how many s the one mean is later than the other, and the least square of their difference
+    in (m/s^2)^2 that tells a turn.
+    """
     later = ca.fmin(x.span / 2, SLOW) - FAST
     by_noise = MOVES / 3 * ca.sum1(noise) * SHARE * h
-    return ca.sumsqr(x.fast_force - x.slow_force) > (LEAST_TURN * gravity * later) ** 2 + by_noise
+    return later, (LEAST_TURN * gravity * later) ** 2 + by_noise
+
+
+def wrong_bias(x: Stillness, rate, covariance, density, gravity, noise, h):
+    """Variance in (rad/s)^2 of an axis by which a bias is wrong that a body at rest contradicts.
+
+    By ``rate`` (3,) rad/s, the mean less the bias as it was known with this ``covariance`` (3, 3),
+    the body turns about a level axis, far more than that and noise of this ``density`` (rad/s)^2 s
+    make it. Then gravity would turn in its axes; where it does not, the bias has drifted as its
+    part does not say. Elsewhere it is 0. ``gravity`` and ``noise`` as for ``turns``.
+    """
+    force, span = ca.fmax(ca.sumsqr(x.slow_force), LEAST_FORCE), ca.fmax(x.span, h)
+    up = x.slow_force * reciprocal(ca.sqrt(force))
+    along = ca.dot(up, rate) ** 2
+    level = ca.sumsqr(rate) - along
+    own = ca.trace(covariance) - ca.dot(up, covariance @ up) + 2 * density * reciprocal(span)
+    later, least = _told_turn(x, gravity, noise, h)
+    told = TELLS**2 * least <= level * (gravity * later) ** 2
+    stands = (x.span >= LONGER) * (1 - turns(x, gravity, noise, h))
+    leans = 1 - (along <= level) * (force <= (MOST_FORCE * gravity) ** 2)
+    return stands * told * (1 - leans) * (level > GATE * own) * level / 2
 
 
 def begins(before: Stillness, after: Stillness, time, unknown, moves, h):
