@@ -308,6 +308,15 @@ def clipped(rng) -> Log:
     return log
 
 
+def warming(rng) -> Log:
+    """The gyro warms up by 0.1 to 0.3 deg/s in minutes, and nobody declared it."""
+    log = record(rng, resting_between(rng, 600.0), 600.0)
+    away = rng.standard_normal(3)
+    away *= np.deg2rad(rng.uniform(0.1, 0.3)) / np.linalg.norm(away)
+    drift = (1 - np.exp(-log.time / rng.uniform(15.0, 150.0)))[:, None] * away
+    return replace(log, gyro=log.gyro + drift, bias=log.bias + drift)
+
+
 def late_headings(rng) -> Log:
     return with_headings(rng, matched(rng), age=0.5)
 
@@ -383,6 +392,7 @@ CASES = (
         lambda rng: record(rng, resting_between(rng, 600.0), 600.0),
         (0.5, 0.2),
     ),
+    Case("the same, a gyro that warms up, undeclared", warming, (0.5, 0.2)),
     Case("slow turn at the start", lambda rng: record(rng, slow_start(rng, 120.0), 120.0)),
     Case("yaw lost for 2 s", lost_yaw, since=42.5, headed=True),
     Case("heading after 10 s", unknown_yaw, since=10.5, headed=True),

@@ -141,6 +141,54 @@ def test_a_drift_that_the_part_is_silent_of_is_no_turn_where_gravity_stands_stil
         assert np.sum((wrong / std[3:]) ** 2) < chi2.ppf(1 - OUTSIDE, 3)
 
 
+REST, GO, ROUNDS = 1000, 1500, 6
+"""Samples of a rest and of a drive, and how often they follow each other."""
+
+
+def warming(drift, seed: int):
+    """Outputs, the drive and the true bias (n, 3) of a gyro of 1 deg/sqrt(h) whose bias goes away
+    by ``drift`` (3,) rad/s in a minute or two, where its part knows a walk of 1e-6 alone.
+    """
+    block, n_accel = attitude_ukf(part(3e-4, 1e-6, 2e-3)), 2e-3
+    rate = rover_rate(ROUNDS * (REST + GO) + REST)
+    rate[np.arange(len(rate)) % (REST + GO) < REST] = 0
+    world, rng = drive(rate), np.random.default_rng(seed)
+    noise = rng.standard_normal((2, *rate.shape)) / np.sqrt(H)
+    bias = (1 - np.exp(-H * np.arange(len(rate)) / 60.0))[:, None] * drift
+    gyro = world.inertial + bias + 3e-4 * noise[0]
+    u = inputs(len(gyro), gyro=gyro, accel=world.force + n_accel * noise[1])
+    y, _ = block.run(u, p=parameters(block, std0=STD0))
+    return block, y, world, bias
+
+
+@pytest.mark.parametrize("drift", [[2e-3, -1e-3, 2e-3], [0.0, 0.0, -3e-3], [1e-4, 1e-4, 0.0]])
+def test_the_walk_of_a_bias_is_learnt_from_the_rests(drift):
+    """Each rest after the second is seen, though the bias left what the part knows long ago, and
+    the bias that it shows is within what is claimed.
+    """
+    squares, ends, draws = 0.0, np.arange(2, ROUNDS + 1) * (REST + GO) + REST - 1, 5
+    for seed in range(draws):
+        block, y, _, bias = warming(np.array(drift), seed)
+        for end in ends:
+            assert output(block, y, "at_rest")[end - REST + 400 : end].all()
+        off = (output(block, y, "gyro_bias") - bias)[ends] / output(block, y, "std")[ends, 3:]
+        squares += np.sum(off**2)
+    # Rests of which nothing new is learnt go into each other's bias: the errors of a draw may be
+    # one error, and their mean square that of 3 axes.
+    assert squares / len(ends) < chi2.ppf(1 - OUTSIDE, 3 * draws)
+
+
+def test_of_a_bias_that_stays_the_rests_learn_no_walk():
+    """The bias after seven rests is as well known as all of them together show it, or nearly: a
+    rest of a thousand looks like a drift.
+    """
+    for seed in range(3):
+        block, y, _, _ = warming(np.zeros(3), seed)
+        std = output(block, y, "std")[-1, 3:]
+        together = 3e-4 / np.sqrt(H * REST * (ROUNDS + 1))
+        assert std.max() < 1.3 * together
+
+
 def test_an_even_turn_that_leans_as_it_is_pushed_is_no_rest():
     """An aircraft that turns by 1.1 deg/s at 50 m/s: rate and force stand still in its axes, and
     by the force the turn is partly about a level axis.

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{87ef5ab3-d799-96ad-9106-c2f9c9c55d2b}"
-#define MODEL_TOKEN_FMI3 "{380387a8-5a89-e490-b69c-1a3e5ea8832a}"
+#define MODEL_TOKEN_FMI2 "{c5a68051-7a82-7c84-a2cf-9d803f6a6c1f}"
+#define MODEL_TOKEN_FMI3 "{19c0d158-56fd-e5b0-18b6-f32d108bcc40}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -17,20 +17,20 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 63,
     N_OUTPUTS = 21,
-    N_STATES = 350,
-    N_CONSTANTS = 107,
+    N_STATES = 353,
+    N_CONSTANTS = 108,
     N_NOISE = 0,
     N_VARIABLES = 104
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3091 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3107 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 783944 };
+enum { MODEL_MOST_SAMPLES = 780518 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{9e013fbf-3864-0233-c16c-0c02898b2790}"
-#define MODEL_TOKEN_FMI3 "{fe2b6689-fca9-365d-1df8-b5276f58b88a}"
+#define MODEL_TOKEN_FMI2 "{282c0051-eeae-eb91-bb7d-8a0858163c56}"
+#define MODEL_TOKEN_FMI3 "{6ac1aa26-0e44-d019-2534-4aa380ec0b4e}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{cad49dc0-dddc-7b6c-f17a-c095a4a84747}"
-#define MODEL_TOKEN_FMI3 "{ada7aa91-dc5d-f6a2-6e2a-06b1bfaa9b53}"
+#define MODEL_TOKEN_FMI2 "{900506f5-d972-90b1-e3b1-0dbd3312e023}"
+#define MODEL_TOKEN_FMI3 "{93befe45-bd90-3639-dc09-ab33ce669195}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 

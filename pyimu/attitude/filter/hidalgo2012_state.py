@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import casadi as ca
 
 from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.drift import Drift
 from pyimu.attitude.filter.memory import Memory, first_estimate
 from pyimu.attitude.filter.quasi_static import GravitySize, MeanForce, QuasiStatic
 from pyimu.attitude.filter.settings import Settings
@@ -114,6 +115,7 @@ class State:
             MeanForce(zero, ca.SX(0), self.seen),
             Motion.start(ca.SX(0), ca.SX(0)),
             Stillness.start(),
+            Drift.start(),
             safe=ca.SX.zeros(6),
             later=ca.SX.zeros(6),
             held=self.held,

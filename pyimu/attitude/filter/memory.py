@@ -9,6 +9,8 @@ import numpy as np
 
 from pyimu.attitude.filter import late_heading
 from pyimu.attitude.filter.compensation import Compensation
+from pyimu.attitude.filter.drift import SIZES as DRIFT
+from pyimu.attitude.filter.drift import Drift
 from pyimu.attitude.filter.field import Field
 from pyimu.attitude.filter.quasi_static import GravitySize, MeanForce, QuasiStatic, passing_std
 from pyimu.attitude.filter.stillness import SIZES as STILLNESS
@@ -71,7 +73,8 @@ class Memory:
     and accelerometer have not changed, and then each of their axes, while others of its triad did.
     ``sensors`` is the compensation's memory, ``speed_for`` how many s ago there was a speed,
     ``calm`` that of ``stillness.calmer``, ``turning`` (rad/s)^2 that of ``turning.followed``,
-    ``known`` (rad/s)^2 the variance of the bias about the vertical by all but rests that may sway.
+    ``known`` (rad/s)^2 the variance of the bias about the vertical by all but rests that may sway,
+    ``drift`` its walk as the rests show it.
     ``by_scale`` (3,) rad^2/s is the noise of the attitude that ``prediction`` makes of the gyro's
     scale factors, ``scales`` 0 or 1 whether these have had a part in any error.
     ``vertical_noise`` is the variance in rad^2 that was added about the vertical since the start.
@@ -86,6 +89,7 @@ class Memory:
     mean: MeanForce
     motion: Motion
     stillness: Stillness
+    drift: Drift
     safe: ca.SX
     later: ca.SX
     held: ca.SX
@@ -134,7 +138,7 @@ class Memory:
         size = (self.size.size, self.size.learnt, self.size.doubted)
         mean = (kept(self.mean.force), kept(self.mean.scatter), self.mean.span)
         sensors = (self.held, self.lost_for, self.same_for, self.sensors)
-        still = self.stillness.pack()
+        still = (*self.stillness.pack(), *self.drift.pack())
         memory = ca.densify(
             ca.vertcat(
                 *quasi,
@@ -163,20 +167,19 @@ class Memory:
         ends = np.cumsum([0, *memory_sizes(compensation)]).tolist()
         parts = ca.vertsplit(column, ends)
         quasi, size = QuasiStatic(*parts[:2]), GravitySize(*parts[2:5])
-        mean, after = MeanForce(*parts[5:8]), 8 + len(STILLNESS)
-        still, others, motion = (
-            Stillness(*parts[8:after]),
-            parts[after:-1],
-            Motion.unpack(parts[-1]),
-        )
-        return cls(cls.estimate_of(estimate), quasi, size, mean, motion, still, *others)
+        mean, motion = MeanForce(*parts[5:8]), Motion.unpack(parts[-1])
+        drift = 8 + len(STILLNESS)
+        others = drift + len(DRIFT)
+        rest = Stillness(*parts[8:drift]), Drift(*parts[drift:others])
+        x = cls.estimate_of(estimate)
+        return cls(x, quasi, size, mean, motion, *rest, *parts[others:-1])
 
 
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
     own = held, 3, 8, len(compensation.start), 1, 1, 1, 1, 3, 1, 1, 2, 1
-    return 1, 1, 1, 1, 1, 3, 1, 1, *STILLNESS, 6, 6, *own, MOTION
+    return 1, 1, 1, 1, 1, 3, 1, 1, *STILLNESS, *DRIFT, 6, 6, *own, MOTION
 
 
 def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
@@ -191,6 +194,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
         Motion.start(first_std(at), at["motion_time"]),
         Stillness.start(),
+        Drift.start(),
         safe=ca.SX.zeros(6),
         later=ca.SX.zeros(6),
         held=ca.vertcat(0, 0, 0, 0, 0, at["gravity"], 25, *held),

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
-from pyimu.attitude.filter import late_heading, turning
+from pyimu.attitude.filter import drift, late_heading, turning
 from pyimu.attitude.filter.field import is_magnetometer
 from pyimu.attitude.filter.gravity_update import (
     Body,
@@ -26,6 +26,7 @@ from pyimu.attitude.filter.sample import Sample, unknown_turn
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import (
     CALM,
+    DRIFTS,
     SLOW,
     UNKNOWN,
     Stillness,
@@ -191,8 +192,8 @@ class Rest:
     casadi would draw a choice into every product. ``before`` is the estimate before the sample:
     where a rest ends, with the bias as it was before its last samples. By ``forgotten`` (3,) the
     variance of the bias was larger then, or is by what it took of a turn that was so slow that it
-    looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe``, ``later``, ``calm`` and
-    ``known`` are those of ``Memory``.
+    looked like rest, and by ``unseen`` (3,) that of the attitude. ``safe``, ``later``, ``calm``,
+    ``known`` and ``drift`` are those of ``Memory``.
     """
 
     still: Stillness
@@ -207,6 +208,7 @@ class Rest:
     later: ca.SX
     calm: ca.SX
     known: ca.SX
+    drift: drift.Drift
 
     @property
     def surely(self):
@@ -262,11 +264,12 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     calm = calmer(at.memory.calm, before, alike, may_drive, at.h)
     before_it, hidden = _hidden_turn(at, still, x)
     unseen, both = SLOW**2 * (unseen + begun) + still.span**2 * hidden, (1 - unsure, doubt)
-    kept = safe, later, calm, before_it
-    forgotten = forgotten + hidden
+    drifts, less_known = _drift(at, x, resting, doubt)
+    forgotten = forgotten + hidden + less_known
     if at.sleeps:
         wrong = resting * _wrong_bias(at, before, x)
         forgotten, unseen = forgotten + wrong, unseen + still.span**2 * wrong
+    kept = safe, later, calm, before_it, drifts
     return Rest(still, resting, *both, moving, x, forgotten, unseen, *kept)
 
 
@@ -282,6 +285,24 @@ def _hidden_turn(at: Instant, still: Stillness, x: Estimate):
     anew = 1 - (before.span > 0) * (1 - stands(before, noise))
     known = ca.if_else(anew, own, at.memory.known)
     return known, turns_unseen(before, still, noise, known, own) * up**2
+
+
+def _drift(at: Instant, x: Estimate, resting, doubt):
+    """``drift.followed`` of the memory; in doubt the bias about the vertical is not looked at."""
+    kept = at.memory.drift
+    if not at.sleeps:
+        return replace(kept, since=kept.since + at.h), ca.SX(0)
+    before, up, known = at.memory.stillness, vertical(x), x.covariance[3:6, 3:6]
+    off, span = before.slow - x.bias - at.earth, ca.fmin(before.span, drift.WHOLE)
+    white = ca.fmax(before.density, _density(at.settings)) * reciprocal(ca.fmax(span, at.h))
+    axes = 3 - doubt
+    square = ca.sumsqr(off) - doubt * ca.dot(up, off) ** 2
+    own = ca.trace(known) - doubt * ca.dot(up, known @ up)
+    noise = axes * white
+    found, less_known = drift.followed(
+        kept, before, resting, square, own + noise, noise, axes, at.h
+    )
+    return replace(found, since=(1 - at.stationary) * found.since), less_known
 
 
 def _wrong_bias(at: Instant, still: Stillness, x: Estimate):
@@ -314,7 +335,8 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
     rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
     up, known, scalar = vertical(x), x.covariance[3:6, 3:6], at.settings.scalar
     believed = known + _wrong_bias(at, still, x) * ca.SX.eye(3)
-    found = is_rest(rate, believed, up, noise, span, still.rests > 0)
+    drifts = ca.fmin(DRIFTS**2 * _density(at.settings), UNKNOWN**2)
+    found = is_rest(rate, believed, up, noise, span, still.rests > 0, drifts)
     unknown = ca.dot(up, known @ up) > UNKNOWN**2
     moves = turns(still, scalar["gravity"], white_variance(at.settings, at.h), at.h)
     now = begins(at.memory.stillness, still, scalar["rest_time"], unknown, moves, at.h)
@@ -349,7 +371,7 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
         least + (1 - moving) * at.stationary * still + moving * turned + rest.unseen,
         moving * ca.diag(noise[:3, 3:]),
         ca.diag(noise[3:, 3:])
-        + LEAST_K**2 * h
+        + (LEAST_K**2 + at.memory.drift.density) * h
         + settings.scalar["bias_noise"] ** 2 * angle
         + in_motion
         + rest.forgotten,
@@ -404,6 +426,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         force.mean,
         motion,
         still,
+        rest.drift,
         rest.safe,
         rest.later,
         sample.held,

@@ -68,6 +68,11 @@ UNKNOWN, LONGER, LEAST_TURN = 2e-3, 2.5, 6e-4
 would pass for a rest unless gravity moves in the body's axes. That it does not shows in so long a
 time to a thirtieth of a degree per second, the last."""
 
+DRIFTS = 7.0
+"""1/sqrt(s); times the gyro's white noise by which its bias is soon another where its part does not
+say so, as it warms up or as gravity comes to pull it another way: a gyro of 1 deg/sqrt(h) by 0.1
+deg/s, one of 0.1 deg/sqrt(h) by 40 deg/h. It is at most ``UNKNOWN``."""
+
 TELLS, MOST_FORCE = 2.0, 1.2
 """How often what ``turns`` can tell a level rate must be, so that gravity that stands still in the
 body's axes excludes it: noise hides such a turn with four standard deviations. And the most force
@@ -191,17 +196,18 @@ def passes(before, after):
     return ca.floor(after * (1 / FAST)) > ca.floor(before * (1 / FAST))
 
 
-def is_rest(rate, covariance, up, noise, span, rests=1):
+def is_rest(rate, covariance, up, noise, span, rests=1, drifts=0):
     """Whether a body that has been still for ``span`` s rests, 0 or 1.
 
     ``rate`` (3,) rad/s is its mean rate less the bias as it was known, with this ``covariance`` (3,
     3); ``up`` (3,) is the vertical, ``noise`` (rad/s)^2 s the density of the gyro's white noise. A
-    body that ``rests``, 0 or 1, does so until that is contradicted.
+    body that ``rests``, 0 or 1, does so until that is contradicted. A bias that ``drifts``
+    (rad/s)^2 beyond what its part says is more likely than so slow an even turn.
     """
     along, own, white = ca.dot(up, rate), ca.dot(up, covariance @ up), noise / span
     level = ca.sumsqr(rate) - along**2 <= GATE * (ca.trace(covariance) - own + 2 * white)
     gate = ca.if_else(rests, GATE, NEW)
-    return level * (along**2 <= gate * (own + white))
+    return level * (along**2 <= ca.fmax(gate * (own + white), drifts))
 
 
 def turns(x: Stillness, gravity, noise, h):
