@@ -567,6 +567,17 @@ def test_a_held_out_log_that_begins_at_rest_confirms_the_delay():
     assert Rotation.from_matrix(held.T @ mounting.as_matrix()).magnitude() < 0.01
 
 
+def test_gravity_that_is_turned_in_the_bodys_axes_has_no_lag():
+    """Its size stays, and so did what was compared: a bias that moved with temperature looked like
+    a lag of 12 s.
+    """
+    made = make("size1/accel.thermal_bias_cubic", 400, (5.0, 9.0))
+    recording = Recording.from_arrays("turned", **made.logs[0])
+    clock = measure(accel_trial(recording, False), Sensor("accel"))
+    assert np.abs(clock.at(recording.time)).max() < H
+    assert clock.explained > 0.99
+
+
 def test_a_reference_of_another_body_is_unfit():
     own = log(0.0, 4)
     other = Recording.from_arrays(name="x", time=TIME, gyro=own.gyro, ref_rate=Motion(99)(TIME))

@@ -214,14 +214,16 @@ def rebanded(trial: Trial) -> Trial:
 
 def _coarse(trial: Trial) -> float:
     """Lag in s at which the sizes of the two rates, in means over ``PERIOD``, correlate best: the
-    noise of an attitude, once differentiated, may be larger than the motion from row to row.
+    noise of an attitude, once differentiated, may be larger than the motion from row to row. Of
+    forces it is what they change: gravity has the same size however the body is turned.
 
     0 where that is hardly better than without a lag; of a motion that repeats, with which many
     correlate alike, the shortest.
     """
     x, y, counted = _both(trial)
     means = max(round(PERIOD / trial.h), 1)
-    x, y = (uniform_filter1d(v, means, axis=0) for v in (x, y - np.median(y, axis=0)))
+    centred = (v - np.median(v[counted], axis=0) for v in (x, y))
+    x, y = (uniform_filter1d(v, means, axis=0) for v in centred)
     x, y = np.linalg.norm(x, axis=1), np.linalg.norm(y, axis=1)
     most = round(min(FARTHEST, (trial.time[-1] - trial.time[0]) / 4) / trial.h)
     lags = np.arange(-most, most + 1)
