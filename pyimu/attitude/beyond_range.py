@@ -49,6 +49,10 @@ the cubic has up to ten times too much."""
 UNTOLD_WAYS = ((6, 2), (4, 2), (3, 2), (3, 1), (2, 1))
 """How such a span is drawn: the first is the best of these logs."""
 
+NEAR = 0.05
+"""Share of the limit by which samples that pile up there may be off it, by corrections made after
+it. What piles up farther below is no limit."""
+
 SHORTEST = 2
 """Samples at the limit; a single one is drawn by the filter as the sample before."""
 
@@ -171,7 +175,9 @@ def by_axis(
     gyro, stds = recording.gyro.copy(), list[float | None]()
     edges = np.array([first for first, _ in recording.segments[1:]], dtype=int)
     for column, limit in zip(gyro.T, limits, strict=True):
-        lost = (np.abs(column) >= limit) | clipped(column)
+        lost = np.abs(column) >= limit
+        if np.isfinite(limit):
+            lost |= clipped(column) & (np.abs(column) >= (1 - NEAR) * limit)
         std: float | None = 0.0
         if np.isfinite(limit) and lost.any():
             longest = round(UNTOLD_LONGEST / recording.sample_period) if untold else 0

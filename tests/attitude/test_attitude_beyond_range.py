@@ -95,6 +95,16 @@ def test_a_gyro_within_its_range_is_left_as_it_is():
     assert drawn(whole) == (whole, 0.0)
 
 
+def test_what_piles_up_far_below_the_limit_is_not_drawn_beyond_it():
+    """By a part whose range is five times as large, the pile is no limit: what is drawn there would
+    be five times too fast.
+    """
+    clipped, limit = cut(swung(3)[0], 0.9)
+    part = nominal_part(clipped, find_rest(clipped, G))
+    wide = part.with_sensor(part.gyro.with_values("saturation", limit=np.full(3, 5 * limit)))
+    assert module.by_axis(clipped, wide, untold=True) == (clipped, [0.0] * 3)
+
+
 def test_nothing_is_drawn_of_which_the_log_knows_nothing_alike():
     """A single knock in a log that rests: what it was beyond the range nobody can say."""
     rng = np.random.default_rng(2)

@@ -77,16 +77,19 @@ def test_sine_and_constant_rate_are_no_clipping():
     assert not clipped(table + noise()[:, 0]).any()
 
 
-def test_a_coarse_converters_topmost_value_is_no_limit():
+@pytest.mark.parametrize("taken_out", [0.0, 1e-6, 0.1])
+def test_a_coarse_converters_topmost_value_is_no_limit(taken_out):
     """Turns at 44.6 deg/s behind steps of 0.98 deg/s, wider than the band that a plateau has: the
-    topmost value has its share of a normal law, less than the next one. A limit is still one.
+    topmost value has its share of a normal law, less than the next one. A limit is still one. So it
+    is where a bias of some deg/s that drifts was taken out since, and no two samples are equal.
     """
+    bias = taken_out * np.arange(2400) / 2400
     for seed in range(20):
         noise = 0.4 * np.random.default_rng(seed).standard_normal(2400)
         turns = np.repeat([0.0, 44.6] * 4, 300) + noise
-        assert not clipped(np.round(turns / 0.98) * 0.98).any()
+        assert not clipped(np.round(turns / 0.98) * 0.98 + bias).any()
     swings, limit = 60.0 * np.sin(np.arange(2400) / 40) + noise, 43 * 0.98
-    cut = np.round(np.minimum(swings, limit) / 0.98) * 0.98
+    cut = np.round(np.minimum(swings, limit) / 0.98) * 0.98 + bias
     assert clipped(cut)[swings > limit].all() and not clipped(cut)[swings < limit - 0.98].any()
 
 

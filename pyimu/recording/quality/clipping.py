@@ -130,7 +130,7 @@ def _plateau(values: np.ndarray, sign: int) -> np.ndarray:
     count = np.count_nonzero(inside)
     if width <= 0 or count < LEAST_CLIPPED or count <= PILE_UP * below:
         return none
-    if below == 0 and count <= PILE_UP * _at_next_level(v[v < top - width]):
+    if below == 0 and count <= PILE_UP * _at_next_level(v[v < top - width], width):
         return none
     deep = _within(inside)
     if not deep.any():
@@ -148,10 +148,11 @@ def _within(rows: np.ndarray) -> np.ndarray:
     return rows[:-2] & rows[1:-1] & rows[2:]
 
 
-def _at_next_level(rest: np.ndarray) -> int:
-    """How many samples have the largest value of ``rest``, those below a plateau.
+def _at_next_level(rest: np.ndarray, width: float) -> int:
+    """How many samples of ``rest``, those below a plateau, are within its ``width`` of the largest.
 
     Where a converter's steps are wider than the plateau, the band below it is empty whatever the
-    sensor does: a pile is one against the samples of the next step.
+    sensor does: a pile is one against the samples of the next step. A bias that was taken out
+    since, as by temperature, leaves those of a step unequal.
     """
-    return int(np.count_nonzero(rest == rest.max())) if len(rest) else 0
+    return int(np.count_nonzero(rest >= rest.max() - width)) if len(rest) else 0
