@@ -7,7 +7,7 @@ from fmu_toy import Unit
 from heading_cases import H, K, N, log, measured, turns
 from scipy.stats import chi2
 
-from pyimu.attitude.heading.estimator import about_the_vertical, heading_estimator
+from pyimu.attitude.heading.estimator import MOVED, about_the_vertical, heading_estimator
 from pyimu.attitude.heading.variables import INPUTS, STATUS
 from pyimu.errors import UserError
 from pyimu.fmu import FORMS, simulate, simulate_blocks
@@ -261,3 +261,31 @@ def test_a_state_taken_back_makes_the_same_run_again(fmus, form):
         unit.restore(state)
         np.testing.assert_array_equal(unit.run(u[400:], first=400, period=H), first)
         unit.release(state)
+
+
+@pytest.mark.parametrize("drift", [2e-3, -3.5e-3])
+def test_a_gyro_that_warms_up_as_its_part_does_not_say_is_known_anew_by_each_rest(drift):
+    """Rests of 8 s every 25 s, and a bias that goes away in minutes: each rest is seen, and shows
+    the bias to five standard deviations of what its mean does, and half of a drift that is too
+    small to show at its beginning: what was known of the bias before counts as much as the rest.
+    """
+    n, seconds, period, still = 3e-4, 300.0, 25.0, 8.0
+    time = H * np.arange(round(seconds / H))
+    moving = time % period >= still
+    bias = drift * (1 - np.exp(-time / 60.0))
+    block = heading_estimator(part(n, 2e-6))
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        rate = 0.5 * np.sin(2 * np.pi * time / 7 + seed) * moving
+        gyro = rate + bias + n / np.sqrt(H) * rng.standard_normal(len(time))
+        shaken = 0.3 * moving * rng.standard_normal(len(time))
+        level = 1e-3 / np.sqrt(H) * rng.standard_normal(len(time))
+        y = run(
+            block,
+            rows(len(time), **{"gyro_z": gyro, "accel[1]": shaken + level, "accel[3]": G - level}),
+        )
+        seen = (time % period > 2.5) & (time % period < still - 0.5)
+        assert y["at_rest"][seen].all()
+        ends = np.flatnonzero(seen & ~np.roll(seen, -1))
+        hidden = np.sqrt(MOVED * (1 / still + 1 / 1.5))
+        assert np.abs(y["bias"] - bias)[ends].max() < n * (hidden / 2 + 5 / np.sqrt(still))

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{282c0051-eeae-eb91-bb7d-8a0858163c56}"
-#define MODEL_TOKEN_FMI3 "{6ac1aa26-0e44-d019-2534-4aa380ec0b4e}"
+#define MODEL_TOKEN_FMI2 "{edd1ea62-288e-4dc1-c367-d7553eae5ffd}"
+#define MODEL_TOKEN_FMI3 "{0a6512ad-3051-39b1-3275-cb1c95dce92e}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -23,7 +23,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 94 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 16777216 };

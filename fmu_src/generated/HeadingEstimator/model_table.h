@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "HeadingEstimator"
-#define MODEL_TOKEN_FMI2 "{900506f5-d972-90b1-e3b1-0dbd3312e023}"
-#define MODEL_TOKEN_FMI3 "{93befe45-bd90-3639-dc09-ab33ce669195}"
+#define MODEL_TOKEN_FMI2 "{fd558c0a-b982-7d26-eed8-126b8c17005a}"
+#define MODEL_TOKEN_FMI3 "{ac2e81ff-f6fb-ac09-e6e3-122601aad241}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -23,7 +23,7 @@ enum {
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 92 };
+enum { WORK_ARG = 6, WORK_RES = 2, WORK_IW = 0, WORK_W = 94 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };

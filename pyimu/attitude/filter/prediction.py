@@ -26,7 +26,6 @@ from pyimu.attitude.filter.sample import Sample, unknown_turn
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import (
     CALM,
-    DRIFTS,
     SLOW,
     UNKNOWN,
     Stillness,
@@ -36,6 +35,7 @@ from pyimu.attitude.filter.stillness import (
     is_still,
     passes,
     share_of_noise,
+    soon_drifts,
     stands,
     sway,
     sways,
@@ -335,7 +335,7 @@ def _decided(at: Instant, x: Estimate, rest: Rest) -> Stillness:
     rate, noise = still.slow - x.bias - at.earth, ca.fmax(still.density, _density(at.settings))
     up, known, scalar = vertical(x), x.covariance[3:6, 3:6], at.settings.scalar
     believed = known + _wrong_bias(at, still, x) * ca.SX.eye(3)
-    drifts = ca.fmin(DRIFTS**2 * _density(at.settings), UNKNOWN**2)
+    drifts = soon_drifts(_density(at.settings))
     found = is_rest(rate, believed, up, noise, span, still.rests > 0, drifts)
     unknown = ca.dot(up, known @ up) > UNKNOWN**2
     moves = turns(still, scalar["gravity"], white_variance(at.settings, at.h), at.h)

@@ -210,6 +210,11 @@ def is_rest(rate, covariance, up, noise, span, rests=1, drifts=0):
     return level * (along**2 <= ca.fmax(gate * (own + white), drifts))
 
 
+def soon_drifts(noise):
+    """(rad/s)^2 by which the bias of a gyro of this white ``noise`` (rad/s)^2 s is soon another."""
+    return ca.fmin(DRIFTS**2 * noise, UNKNOWN**2)
+
+
 def turns(x: Stillness, gravity, noise, h):
     """Whether gravity [m/s^2] moves in the axes of a body that has been still, 0 or 1.
 

@@ -27,6 +27,7 @@ from pyimu.attitude.filter.stillness import (
     is_rest,
     is_still,
     share_of_noise,
+    soon_drifts,
     sway,
 )
 from pyimu.attitude.filter.stillness import kept as kept_before
@@ -50,6 +51,10 @@ STATES = 3
 """Heading [rad], bias [rad/s], scale factor [1]."""
 
 UPPER = [(i, j) for j in range(STATES) for i in range(j + 1)]
+
+MOVED = 10.8
+"""Squared difference of a rest's mean rate and the bias over its variance, which one rest in a
+thousand exceeds by chance."""
 
 AXES = 3
 """Of the stillness, whose noise is that of so many axes, one is seen here."""
@@ -284,9 +289,16 @@ def _rest(x: Estimate, safe: Estimate, before: Stillness, sample: _Sample, at: _
     x = _where(sought * (before.rests > alike), safe, x)
     begins = (before.span < time) * (still.span >= time)
     covariance = x.covariance[1, 1] * (z @ z.T)
-    found = is_rest(still.slow - z * x.x[1], covariance, z, at.white, still.span)
+    off = still.slow - z * x.x[1]
+    drifts = soon_drifts(at.white)
+    found = is_rest(off, covariance, z, at.white, still.span, drifts=drifts)
     rests = ca.if_else(begins, found, before.rests * (still.span > 0))
-    return x, replace(still, rests=rests), resting
+    # A rest shows a bias that has drifted as the part does not say.
+    variance = x.covariance[1, 1] + at.white / still.span
+    less_known = ca.if_else(off[2] ** 2 > MOVED * variance, off[2] ** 2 - variance, 0)
+    anew = Estimate(x.x, ca.SX(x.covariance))
+    anew.covariance[1, 1] += less_known
+    return _where(begins * found, anew, x), replace(still, rests=rests), resting
 
 
 def _of_one_axis(still: Stillness) -> Stillness:
