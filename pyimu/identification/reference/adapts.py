@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from scipy.optimize import minimize
 
 from pyimu.identification.fit.columns import band_time, in_band
 from pyimu.identification.fit.damping import slopes
@@ -17,6 +18,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.align import SIGNIFICANT
 from pyimu.identification.reference.behind import Filter, Undo, likeliest
 from pyimu.identification.reference.clock import WINDOW, shifted
+from pyimu.identification.reference.judged import Judge
 from pyimu.identification.reference.moving import LEAST_ROWS, in_own_band, moving_rows
 from pyimu.model.kinds import OWN
 from pyimu.recording.reference.adapting import SPEED, Adapting
@@ -36,6 +38,15 @@ HALVES = 0.1 * 2.0 ** np.arange(0.0, 5.0, 0.5)
 """rad/s; rates at which they are half as long: of cut-offs that rise by 0.1 to 70 Hz for each."""
 
 
+WIDER, CLOSE, TRIES = 2.0, 1e-3, 100
+"""Times the time constant that is found first, at most, how near to the best is enough, of its
+numbers and as a share of what is left, and how many are tried."""
+
+
+FIRST = 0.3 * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+"""Logarithms of its numbers over those that are found first, of the three tried first."""
+
+
 def without_adapting(trial: Trial) -> Undo | None:
     """What takes a filter that adapts out of the reference of a trial's log; None where there is
     none.
@@ -46,10 +57,43 @@ def without_adapting(trial: Trial) -> Undo | None:
     if not lags_less_where_fast(trial):
         return None
     kinds: list[tuple[Callable[..., Filter], list[float]]] = [
-        (partial(Adapting, halves=float(h)), SIZES[::-1].tolist()) for h in HALVES
+        (partial(Adapting, halves=float(h), steps=steps), SIZES[::-1].tolist())
+        for steps in (True, False)
+        for h in HALVES
     ]
     found = likeliest(trial, kinds, lambda _: False, plainest=lambda _, alike: alike[0])
-    return None if found is None else partial(unlagged, lag=found, motion=trial.band_hz)
+    if found is None:
+        return None
+    return partial(unlagged, lag=_refined(trial, found), motion=trial.band_hz)
+
+
+def _refined(trial: Trial, found: Adapting) -> Adapting:
+    """The filter near to the one that was ``found``, of either form, that leaves least of the
+    reference.
+
+    Where a body turns at one rate mostly its two numbers make one lag there, whichever of the
+    first ones is taken; what they make of the others, and of a form, differs.
+    """
+    forms = [replace(found, steps=steps) for steps in (True, False)]
+    judge = Judge(trial, [replace(f, size=WIDER * f.size) for f in forms])
+    if not judge.any_short:
+        return found
+
+    def near(form: Adapting, x: np.ndarray) -> Adapting:
+        size, halves = np.exp(x) * (form.size, form.halves)
+        return replace(form, size=float(min(size, WIDER * form.size)), halves=float(halves))
+
+    tried, enough = [found], {"xatol": CLOSE, "fatol": CLOSE * judge.left(found), "maxfev": TRIES}
+    enough["initial_simplex"] = FIRST
+    for form in forms:
+        best = minimize(
+            lambda x, form=form: judge.left(near(form, x)),
+            np.zeros(2),
+            method="Nelder-Mead",
+            options=enough,
+        )
+        tried.append(near(form, best.x))
+    return min(tried, key=judge.left)
 
 
 def _on_one_clock(trial: Trial) -> Trial:

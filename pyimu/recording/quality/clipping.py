@@ -130,7 +130,7 @@ def _plateau(values: np.ndarray, sign: int) -> np.ndarray:
     count = np.count_nonzero(inside)
     if width <= 0 or count < LEAST_CLIPPED or count <= PILE_UP * below:
         return none
-    if below == 0 and count <= PILE_UP * _at_next_level(v[v < top - width], width):
+    if below == 0 and count <= PILE_UP * _at_next_level(v, inside, width):
         return none
     deep = _within(inside)
     if not deep.any():
@@ -148,11 +148,17 @@ def _within(rows: np.ndarray) -> np.ndarray:
     return rows[:-2] & rows[1:-1] & rows[2:]
 
 
-def _at_next_level(rest: np.ndarray, width: float) -> int:
-    """How many samples of ``rest``, those below a plateau, are within its ``width`` of the largest.
+def _at_next_level(v: np.ndarray, inside: np.ndarray, width: float) -> int:
+    """How many samples have the largest value that is not ``inside`` a plateau, or are within its
+    ``width`` below that and between others that are, too.
 
     Where a converter's steps are wider than the plateau, the band below it is empty whatever the
     sensor does: a pile is one against the samples of the next step. A bias that was taken out
     since, as by temperature, leaves those of a step unequal.
     """
-    return int(np.count_nonzero(rest >= rest.max() - width)) if len(rest) else 0
+    rest = v[~inside & np.isfinite(v)]
+    if not len(rest):
+        return 0
+    near = v >= rest.max() - width
+    stays = np.concatenate([[False], _within(near), [False]]) & ~inside
+    return int(np.count_nonzero((v == rest.max()) | stays))

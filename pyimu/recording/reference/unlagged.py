@@ -97,18 +97,29 @@ def _attitude(source: Recording, lag: float | Adapting, motion: float) -> Record
     own = own_samples(source)
     quick = np.full_like(own.ref_q, np.nan)
     for nodes in attitude_track(own).segments:
-        curve = attitude_curve(own, nodes)
-        rate = _below(curve(own.time[nodes], 1), own.time[nodes], CUT_OFF * motion)
-        speed = np.linalg.norm(rate, axis=1, keepdims=True)
-        lags = _constants(lag, rate, float(np.median(np.diff(own.time[nodes]))))
-        turn = rate * 2.0 * np.arctan(lags * speed / 2.0) / np.maximum(speed, 1e-300)
-        turned = curve(own.time[nodes]) * Rotation.from_rotvec(turn)
+        time, curve = own.time[nodes], attitude_curve(own, nodes)
+        shown, h = curve(time), float(np.median(np.diff(time)))
+        if isinstance(lag, Adapting) and lag.steps:
+            # What it was shown, noise and all.
+            lags = lag.constants_of(shown.as_quat(scalar_first=True), h)[:, None]
+            turned = shown * Rotation.from_rotvec(lags * _steps(shown, time))
+        else:
+            rate = _below(curve(time, 1), time, CUT_OFF * motion)
+            speed, lags = np.linalg.norm(rate, axis=1, keepdims=True), _constants(lag, rate, h)
+            turn = rate * 2.0 * np.arctan(lags * speed / 2.0) / np.maximum(speed, 1e-300)
+            turned = shown * Rotation.from_rotvec(turn)
         quick[nodes] = turned.as_quat(scalar_first=True)
     found = replace(own, ref_q=quick)
     alone = all(getattr(source, g) is None for g in TRUTHS if g != "ref_q")
     if own is source or alone:
         return found
     return replace(source, ref_q=attitude_at(found, source.time))
+
+
+def _steps(shown: Rotation, time: np.ndarray) -> np.ndarray:
+    """Rates (n, 3) rad/s of attitudes (n,) since the ones before."""
+    steps = (shown[:-1].inv() * shown[1:]).as_rotvec() / np.diff(time)[:, None]
+    return np.vstack([steps[:1], steps])
 
 
 def _below(values: np.ndarray, time: np.ndarray, cut_off: float) -> np.ndarray:
