@@ -153,7 +153,7 @@ ClosePart = Annotated[
 ]
 HoldOut = Annotated[
     list[Path] | None,
-    typer.Option("--holdout", help="Log to judge by; else the last 30 % of each."),
+    typer.Option("--holdout", help="Log to judge by; else 30 % of each, mostly its end."),
 ]
 References = Annotated[
     list[Path] | None,

@@ -97,12 +97,12 @@ def close(
 
     ``recordings`` are Recordings, paths or data frames; ``part`` is a Part, the name of a built-in
     one, a TOML path, or None for the baseline structure with every coefficient estimated. Without
-    ``holdout`` the last 30 % of each log is held out. ``reference`` are references in recordings,
-    files or data frames of their own, at their own rate and on their own clock: one for each log in
-    order, then one for each log of ``holdout``; a log without one has its own. ``latitude`` [rad]
-    adds the Earth's rate to a reference rate derived from an attitude. Raises UserError for logs
-    that cannot be read, are too short, do not overlap their reference, or do not excite what the
-    part asks to be estimated.
+    ``holdout`` 30 % of each log are held out, the last of it where these do not have nearly all
+    that an axis is turned by. ``reference`` are references in recordings, files or data frames of
+    their own, at their own rate and on their own clock: one for each log in order, then one for
+    each log of ``holdout``; a log without one has its own. ``latitude`` [rad] adds the Earth's rate
+    to a reference rate derived from an attitude. Raises UserError for logs that cannot be read, are
+    too short, do not overlap their reference, or do not excite what the part asks to be estimated.
     """
     own = _references(reference)
     logs, others = _named(*_with_references(_many(recordings), _many(holdout), own))

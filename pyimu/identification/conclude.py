@@ -112,7 +112,7 @@ def conclude(
         quality=quality,
         recordings=_with_overviews(entries, case.together, found, quality),
         exhibits=_exhibits(found, evidence.added, case.formulas),
-        held_out="holdout" if others else "last 30 %",
+        held_out="holdout" if others else _share(found),
         references=references(found, case.together, scales),
         made_with=made_with,
         heading=case.heading,
@@ -120,6 +120,20 @@ def conclude(
         formulas=case.formulas,
     )
     return and_magnetometer(closed, magnetometer, case.together)
+
+
+def _share(found: dict[str, Investigation]) -> str:
+    """Which 30 % of each log was held out."""
+    places = set()
+    for inv in found.values():
+        fitted = {t.name: t for t in inv.after.trials if t.segments}
+        for held in inv.held:
+            if held.reduction is None and held.parent in fitted and len(held.time):
+                rows = fitted[held.parent]
+                begins, ends = (rows.time[row] for row in (rows.segments[0][0], rows.last))
+                amid = "middle" if held.time[0] > begins else "first"
+                places.add("last" if held.time[0] > ends else amid)
+    return f"{places.pop()} 30 %" if len(places) == 1 else "30 %" if places else "last 30 %"
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,10 @@ from pyimu.recording.recording import Recording
 
 RATE, SECONDS = 100.0, 300.0
 LATER = 0.75
-"""Share of the log after which z turns fast: the last 30 % are held out."""
+"""Share of the log after which z turns fast."""
+
+HELD = 0.7
+"""Share of it after which the rows are a log of their own, which judges."""
 
 WHITE = np.radians(0.05)
 """rad/s; noise of a sample of the gyro."""
@@ -48,9 +51,25 @@ def table(noise: float, turns: float = 0.0, own: bool = False, seed: int = 1):
     return log(time, gyro=gyro), log(at, ref_rate=seen)
 
 
+def parts(made: Recording) -> list[Recording]:
+    """What is fitted of a log, and what judges."""
+    groups = {g: v for g in ("gyro", "ref_rate", "ref_q") if (v := getattr(made, g)) is not None}
+    at = int(np.searchsorted(made.time, HELD * SECONDS))
+    rows = slice(at), slice(at, None)
+    return [log(made.time[r], **{g: v[r] for g, v in groups.items()}) for r in rows]
+
+
+def judged(made: Recording, part=None):
+    fitted, held = parts(made)
+    return pyimu.close(fitted, part, holdout=held)
+
+
 def closed(noise: float, turns: float = 0.0, own: bool = False):
     made = table(noise, turns, own=own)
-    return pyimu.close(made[0], reference=made[1]) if own else pyimu.close(made)
+    if not own:
+        return judged(made)
+    (fitted, held), references = map(parts, made)
+    return pyimu.close(fitted, holdout=held, reference=references)
 
 
 def scale_factors(found):
@@ -106,7 +125,7 @@ def test_a_part_that_leaves_its_scale_factors_to_the_data_is_not_spoilt_either(t
         'name = "one"\nsample_rate = {value = 100.0, unit = "Hz"}\n[gyro]\n'
         'scale_factor = "estimate"\nturn_on_bias = "estimate"\nangle_random_walk = "estimate"\n'
     )
-    s = scale_factors(pyimu.close(table(0.1), part))
+    s = scale_factors(judged(table(0.1), part))
     assert s.shown.tolist() == [True, True, False] and abs(s.value[2]) < 1e-6
 
 
@@ -131,11 +150,21 @@ def turned_in_turn(noise: float, seed: int) -> Recording:
 def test_beside_an_attitude_the_axes_that_turn_keep_their_scale_factors(seed):
     """What is left before anything is fitted is motion, which the past of it predicts. The rate of
     an axis that stands is the reference's noise, which is no motion of what that leaves."""
-    found = pyimu.close(turned_in_turn(0.03, seed))
+    found = judged(turned_in_turn(0.03, seed))
     assert not found.added and found.verdict in ("clean", "undecidable"), found.report()
     s = scale_factors(found)
     assert s.shown.tolist() == [True, True, False] and abs(s.value[2]) < 1e-6
     assert np.sum(((s.value - TRUE) / s.std)[:2] ** 2) < chi2.isf(ALARM, 2), s
+
+
+@pytest.mark.parametrize("make", [table, turned_in_turn])
+def test_without_a_log_to_judge_by_all_axes_are_fitted(make):
+    """Of one log other rows are held out than those in which z turns."""
+    found = pyimu.close(make(0.03, seed=1))
+    assert not found.added and found.verdict in ("clean", "undecidable"), found.report()
+    assert found.held_out == "middle 30 %"
+    s = scale_factors(found)
+    assert s.shown.all() and np.sum(((s.value - TRUE) / s.std) ** 2) < chi2.isf(ALARM, 3), s
 
 
 @pytest.mark.parametrize("wobble, still", [(0.0, [2]), (1e-3, [])])

@@ -36,16 +36,18 @@ def beside(
     mounting: np.ndarray,
     start: int = 0,
     clock: Clock | None = None,
+    stop: int | None = None,
 ) -> Compared:
     """Run the filter with ``part`` over a whole recording that has ``ref_q``, to compare.
 
-    It is given from row ``start`` on. ``mounting`` (3, 3) turns the reference's body axes into the
-    sensor's; ``clock`` is what was taken out of the reference's clock.
+    It is given from row ``start`` on, up to ``stop``. ``mounting`` (3, 3) turns the reference's
+    body axes into the sensor's; ``clock`` is what was taken out of the reference's clock.
     """
     if clock is not None and clock.taken_out:
         recording = on_own_clock(recording, clock)
     truth_known = np.isfinite(recording.ref_q).all(axis=1)
-    rows = np.flatnonzero(truth_known & (np.arange(len(truth_known)) >= start))
+    rows = np.flatnonzero(truth_known[:stop])
+    rows = rows[rows >= start]
     if not len(rows):
         return np.zeros(0), np.zeros((0, 4)), Rotation.identity(0)
     reference = (

@@ -10,9 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyimu.identification.fit.columns import linearise
+from pyimu.identification.fit.columns import Linear, linearise
 from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import Fit, carried, with_prior
+from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.normal import covariance
 from pyimu.identification.fit.score import ErrorSums, held_state, sums
@@ -44,8 +45,21 @@ def left_open(fit: Fit, trial: Trial, unsure: Open) -> ErrorSums:
     """
     keys, spread = unsure
     state, rest = held_state(fit, trial)
-    linear = linearise(fit.sensor, rest, state, frozenset(keys))
-    bare = replace(linear, residual=np.zeros(linear.residual.shape))
-    each = [sums(rest, carried(bare, keys, change).residual) for change in spread.T]
+    rows = _bare(fit, rest, state, keys)
+    # What they add to the rows from which the bias of a log of its own is known is in that.
+    own = trial.parent is None and trial.reduction is None
+    head = _bare(fit, trial.head()[0], state, keys) if own else None
+    each = []
+    for change in spread.T:
+        added = carried(rows, keys, change).residual
+        if head is not None and len(head.residual):
+            added = added - carried(head, keys, change).residual.mean(axis=0)
+        each.append(sums(rest, added))
     squares = (sum(getattr(e, name) for e in each) for name in ("squares", "angle_squares"))
     return ErrorSums(next(squares), each[0].rows, next(squares), each[0].windows)
+
+
+def _bare(fit: Fit, trial: Trial, state: LogState, keys: list[Coefficient]) -> Linear:
+    """The rows of a trial as coefficients change them, and nothing else."""
+    linear = linearise(fit.sensor, trial, state, frozenset(keys))
+    return replace(linear, residual=np.zeros(linear.residual.shape))

@@ -264,10 +264,11 @@ def unit_floor(fit: Fit, trial: Trial, seed: int = 1) -> UnitFloor:
     rng = np.random.default_rng(seed)
     parent = next((t for t in fit.trials if t.name == trial.parent), None)
     head, rest = (parent, trial) if parent is not None else trial.head()
-    time, total = np.concatenate([head.time, rest.time]), [ErrorSums(), ErrorSums()]
+    time, total = np.union1d(head.time, rest.time), [ErrorSums(), ErrorSums()]
+    of_head, of_rest = (np.searchsorted(time, t.time) for t in (head, rest))
     for _ in range(FLOOR_DRAWS):
         for k, draw in enumerate(unit_noise(fit.noise, time, rng)):
-            first, last = draw[: len(head.time)], draw[len(head.time) :]
+            first, last = draw[of_head], draw[of_rest]
             bias = in_band(head, first).mean(axis=0) if head.count else np.zeros(3)
             total[k] = total[k] + sums(rest, in_band(rest, last - bias))
     return UnitFloor(*total)

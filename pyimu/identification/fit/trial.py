@@ -44,6 +44,11 @@ from before it."""
 HELD_OUT = 0.3
 """Share of each log, its end, that is held out where no log is named for it."""
 
+ASKED, LEAST_FITTED, LEAST_HELD, TRIED = 0.01, 0.2, 0.1, 21
+"""Of an axis, its power over that of the strongest from which on it must be fitted; the share of
+its power that the fitted rows must have; the mean share that the others have at least; and how many
+places for these are tried."""
+
 HEAD = 30.0
 """Seconds of motion at the start of a held-out log from which what belongs to the log is
 estimated."""
@@ -186,6 +191,11 @@ class Trial:
         return self.free_rotation or (self.reduction is not None and self.reduction.any_turn)
 
     @property
+    def last(self) -> int:
+        """Its last row; the last one where none has a reference."""
+        return self.segments[-1][1] - 1 if self.segments else len(self.time) - 1
+
+    @property
     def count(self) -> int:
         if self.reduction is not None:
             return self.reduction.samples
@@ -222,15 +232,45 @@ class Trial:
         )
 
     def split(self, held_out: float) -> tuple[Trial, Trial]:
-        """The rows to fit, and the last ``held_out`` of those that a reference covers to judge by.
+        """The rows to fit, and the ``held_out`` of those that a reference covers to judge by: the
+        last of them, or where these have nearly all that turns or pushes an axis, as where one axis
+        is turned after another, others that leave each of them more.
 
         Of rows that are not samples none is held out: each is judged by a fit to the others.
         """
         if self.reduction is not None:
             return self, replace(self, parent=self.name)
         rows = np.concatenate([np.arange(a, b) for a, b in self.segments] or [np.arange(0)])
-        at = int(rows[round(len(rows) * (1.0 - held_out))]) if len(rows) > 1 else len(self.time)
-        return self.part(0, at), self.part(at, len(self.time), parent=self.name)
+        if len(rows) < 2:
+            return self, self.part(len(self.time), len(self.time), parent=self.name)
+        count = len(rows) - round(len(rows) * (1.0 - held_out))
+        first = self._held_from(rows, count)
+        start = int(rows[first]) if first < len(rows) else len(self.time)
+        if first + count >= len(rows):
+            return self.part(0, start), self.part(start, len(self.time), parent=self.name)
+        stop = int(rows[first + count])
+        around = [(a, min(b, start)) for a, b in self.segments if a < start]
+        around += [(max(a, stop), b) for a, b in self.segments if b > stop]
+        return replace(self, segments=around), self.part(start, stop, parent=self.name)
+
+    def _held_from(self, rows: np.ndarray, count: int) -> int:
+        """The first of ``count`` of the ``rows`` (m,) to hold out."""
+        last = len(rows) - count
+        if self.place is not None or not 0 < count < len(rows):
+            return last
+        x = self.u[rows][:, OWN[self.kind]][:, list(self.axes)]
+        sums = np.vstack([np.zeros(x.shape[1]), np.cumsum((x - x.mean(axis=0)) ** 2, axis=0)])
+        sums = sums[:, sums[-1] > ASKED * sums[-1].max()]
+        if not sums.size:
+            return last
+        starts = np.unique(np.linspace(0, last, TRIED).astype(int))
+        held = (sums[starts + count] - sums[starts]) / sums[-1]
+        fitted = 1.0 - held.max(axis=1)
+        if fitted[-1] >= LEAST_FITTED:
+            return last
+        fitted[held.mean(axis=1) < LEAST_HELD] = 0.0
+        best = int(np.argmax(fitted))
+        return int(starts[best]) if fitted[best] >= LEAST_FITTED else last
 
     def head(self) -> tuple[Trial, Trial]:
         """The rows with the first ``HEAD`` seconds of motion, at most half, and the rest."""

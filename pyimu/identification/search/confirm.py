@@ -231,12 +231,19 @@ def _on_held_out(fit: Fit, held: Trial, rest: Trial) -> Fit:
     """The model with its noise as it is on held-out rows.
 
     Their bias is the mean over the rows before them, from which a walk differs at their begin by as
-    much as it walks in a third of the time.
+    much as it walks in a third of the time; or over those before and after, each in proportion to
+    its time, the second being further off by the time between.
     """
     first = held
     if held.parent is not None:
         first = next(t for t in fit.trials if t.name == held.parent)
-    before = float(rest.time[0] - first.time[0]) / 3.0 if len(rest.time) else 0.0
+    before = 0.0
+    if len(rest.time):
+        early = float(rest.time[0] - first.time[0])
+        late = max(float(first.time[-1] - rest.time[-1]), 0.0) if first is not held else 0.0
+        share = late / max(early + late, 1e-300)
+        between = float(rest.time[-1] - rest.time[0])
+        before = (1 - share) ** 2 * early / 3.0 + share**2 * (between + late / 3.0)
     noise = {
         i: replace(n, before=before) if isinstance(n, WALKS) else n for i, n in fit.noise.items()
     }
