@@ -42,12 +42,15 @@ SETTLE = 32
 from before it."""
 
 HELD_OUT = 0.3
-"""Share of each log, its end, that is held out where no log is named for it."""
+"""Share of each log, mostly its end, that is held out where no log is named for it."""
 
 ASKED, LEAST_FITTED, LEAST_HELD, TRIED = 0.01, 0.2, 0.1, 21
 """Of an axis, its power over that of the strongest from which on it must be fitted; the share of
 its power that the fitted rows must have; the mean share that the others have at least; and how many
 places for these are tried."""
+
+ROUNDED = 1e-18
+"""Power over that of what stays the same, below which nothing but rounding changes."""
 
 HEAD = 30.0
 """Seconds of motion at the start of a held-out log from which what belongs to the log is
@@ -256,11 +259,12 @@ class Trial:
     def _held_from(self, rows: np.ndarray, count: int) -> int:
         """The first of ``count`` of the ``rows`` (m,) to hold out."""
         last = len(rows) - count
-        if self.place is not None or not 0 < count < len(rows):
+        if self.place is not None or self.reference == "static" or not 0 < count < len(rows):
             return last
         x = self.u[rows][:, OWN[self.kind]][:, list(self.axes)]
         sums = np.vstack([np.zeros(x.shape[1]), np.cumsum((x - x.mean(axis=0)) ** 2, axis=0)])
-        sums = sums[:, sums[-1] > ASKED * sums[-1].max()]
+        rounding = ROUNDED * np.sum(x**2)
+        sums = sums[:, sums[-1] > max(ASKED * float(sums[-1].max()), rounding)]
         if not sums.size:
             return last
         starts = np.unique(np.linspace(0, last, TRIED).astype(int))
