@@ -130,9 +130,9 @@ def _share(found: dict[str, Investigation]) -> str:
         for held in inv.held:
             if held.reduction is None and held.parent in fitted and len(held.time):
                 rows = fitted[held.parent]
-                begins, ends = (rows.time[row] for row in (rows.segments[0][0], rows.last))
+                begins = rows.time[rows.segments[0][0]]
                 amid = "middle" if held.time[0] > begins else "first"
-                places.add("last" if held.time[0] > ends else amid)
+                places.add("last" if rows.precedes(held) else amid)
     return f"{places.pop()} 30 %" if len(places) == 1 else "30 %" if places else "last 30 %"
 
 

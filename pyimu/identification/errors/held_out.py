@@ -273,6 +273,6 @@ def _beside(
     mounting = np.array(log_state(inv, r.name)["rotation"])
     first = int(np.searchsorted(r.time, held.time[0]))
     fitted = next((t for t in inv.after.trials if t.name == held.parent), None)
-    amid = fitted is not None and fitted.time[-1] > held.time[-1]
-    stop = int(np.searchsorted(r.time, held.time[-1], side="right")) if amid else None
+    ends = fitted is None or fitted.precedes(held)
+    stop = None if ends else int(np.searchsorted(r.time, held.time[-1], side="right"))
     return beside(r, part, mounting, first, clock_of(inv, r.name, before), stop)

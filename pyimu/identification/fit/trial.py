@@ -193,10 +193,14 @@ class Trial:
         """Whether a turn of the whole triad is not the sensor's to answer for."""
         return self.free_rotation or (self.reduction is not None and self.reduction.any_turn)
 
-    @property
-    def last(self) -> int:
-        """Its last row; the last one where none has a reference."""
-        return self.segments[-1][1] - 1 if self.segments else len(self.time) - 1
+    def precedes(self, held: Trial) -> bool:
+        """Whether its rows all come before those that are ``held`` out of the same log, or none are
+        held out at once.
+        """
+        if held.reduction is not None or not len(held.time):
+            return True
+        last = self.segments[-1][1] - 1 if self.segments else len(self.time) - 1
+        return bool(held.time[0] > self.time[last])
 
     @property
     def count(self) -> int:
@@ -261,7 +265,7 @@ class Trial:
         last = len(rows) - count
         if self.place is not None or self.reference == "static" or not 0 < count < len(rows):
             return last
-        x = self.u[rows][:, OWN[self.kind]][:, list(self.axes)]
+        x = self.u[:, OWN[self.kind]][rows][:, list(self.axes)]
         sums = np.vstack([np.zeros(x.shape[1]), np.cumsum((x - x.mean(axis=0)) ** 2, axis=0)])
         rounding = ROUNDED * np.sum(x**2)
         sums = sums[:, sums[-1] > max(ASKED * float(sums[-1].max()), rounding)]

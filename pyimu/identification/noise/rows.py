@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,8 +87,8 @@ class Rows:
 def rows_of(fit: Fit, held: tuple[Trial, ...]) -> dict[int, list[Rows]]:
     """By axis the rows of each log, the held-out end of a fitted log behind its fitted rows."""
     out: dict[int, list[Rows]] = {}
-    last = {t.name: float(t.time[t.last]) for t in fit.trials if len(t.time)}
-    ends = {t.parent: t for t in held if t.parent is not None and _is_end(t, last)}
+    fitted = {t.name: t for t in fit.trials}
+    ends = {t.parent: t for t in held if t.parent is not None and fitted[t.parent].precedes(t)}
     for trial in fit.trials:
         made = _columns(fit.sensor, trial, fit.states[trial.name])
         count = len(made)
@@ -106,15 +105,6 @@ def rows_of(fit: Fit, held: tuple[Trial, ...]) -> dict[int, list[Rows]]:
         for i in rest.axes:
             out.setdefault(i, []).append(_axis(made, i, rest.h, 0))
     return out
-
-
-def _is_end(trial: Trial, last: Mapping[str, float]) -> bool:
-    """Whether held-out rows come after the ``last`` s of the fitted ones of their log, not amid
-    them.
-    """
-    if trial.reduction is not None or not len(trial.time):
-        return True
-    return trial.time[0] > last.get(trial.parent or "", -np.inf)
 
 
 def _columns(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:

@@ -37,11 +37,9 @@ SIZES = 0.5 * 2.0 ** -np.arange(0.0, 5.0, 0.5)
 HALVES = 0.1 * 2.0 ** np.arange(0.0, 5.0, 0.5)
 """rad/s; rates at which they are half as long: of cut-offs that rise by 0.1 to 70 Hz for each."""
 
-
 WIDER, CLOSE, TRIES = 2.0, 1e-3, 100
 """Times the time constant that is found first, at most, how near to the best is enough, of its
 numbers and as a share of what is left, and how many are tried."""
-
 
 FIRST = 0.3 * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
 """Logarithms of its numbers over those that are found first, of the three tried first."""
@@ -83,8 +81,8 @@ def _refined(trial: Trial, found: Adapting) -> Adapting:
         size, halves = np.exp(x) * (form.size, form.halves)
         return replace(form, size=float(min(size, WIDER * form.size)), halves=float(halves))
 
-    tried, enough = [found], {"xatol": CLOSE, "fatol": CLOSE * judge.left(found), "maxfev": TRIES}
-    enough["initial_simplex"] = FIRST
+    tried, least = [found], CLOSE * judge.left(found)
+    enough = {"xatol": CLOSE, "fatol": least, "maxfev": TRIES, "initial_simplex": FIRST}
     for form in forms:
         best = minimize(
             lambda x, form=form: judge.left(near(form, x)),

@@ -19,7 +19,7 @@ from pyimu.recording.reference.track import Track
 def attitude_track(source: Recording) -> Track:
     """The samples of ``ref_q`` that can be differentiated."""
     own, findings = measured(one_sign(source.ref_q), "ref_q", _turns)
-    track = Track(source.time, own, partial(_steps, source.ref_q))
+    track = Track(source.time, own, partial(steps_of, source.ref_q))
     track.findings += findings
     return track
 
@@ -34,16 +34,16 @@ def cut_at_jumps(track: Track, source: Recording, recording: Recording) -> None:
 
 
 def _jumps(source: Recording, nodes: np.ndarray, recording: Recording):
-    steps = _steps(source.ref_q, nodes)
+    steps = steps_of(source.ref_q, nodes)
     return jumps(recording.time, steps, source.time[nodes], recording.gyro)
 
 
 def _turns(q: np.ndarray) -> np.ndarray:
     """Rotation vectors (m, 3) rad from each of attitudes (m, 4) to the next, added up."""
-    return np.vstack([np.zeros(3), np.cumsum(_steps(q, np.arange(len(q))), axis=0)])
+    return np.vstack([np.zeros(3), np.cumsum(steps_of(q, np.arange(len(q))), axis=0)])
 
 
-def _steps(q: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+def steps_of(q: np.ndarray, nodes: np.ndarray) -> np.ndarray:
     """Rotation vectors (m - 1, 3) rad between the attitudes ``q`` at rows ``nodes`` (m,)."""
     attitude = Rotation.from_quat(q[nodes], scalar_first=True)
     return (attitude[:-1].inv() * attitude[1:]).as_rotvec()

@@ -14,7 +14,12 @@ from pyimu.errors import Finding
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.adapting import Adapting
-from pyimu.recording.reference.attitude import attitude_at, attitude_curve, attitude_track
+from pyimu.recording.reference.attitude import (
+    attitude_at,
+    attitude_curve,
+    attitude_track,
+    steps_of,
+)
 from pyimu.recording.reference.file import TRUTHS, at_log
 from pyimu.recording.reference.nodes import own_samples
 from pyimu.recording.reference.sampling import through
@@ -102,7 +107,8 @@ def _attitude(source: Recording, lag: float | Adapting, motion: float) -> Record
         if isinstance(lag, Adapting) and lag.steps:
             # What it was shown, noise and all.
             lags = lag.constants_of(shown.as_quat(scalar_first=True), h)[:, None]
-            turned = shown * Rotation.from_rotvec(lags * _steps(shown, time))
+            rate = steps_of(own.ref_q, nodes) / np.diff(time)[:, None]
+            turned = shown * Rotation.from_rotvec(lags * np.vstack([rate[:1], rate]))
         else:
             rate = _below(curve(time, 1), time, CUT_OFF * motion)
             speed, lags = np.linalg.norm(rate, axis=1, keepdims=True), _constants(lag, rate, h)
@@ -114,12 +120,6 @@ def _attitude(source: Recording, lag: float | Adapting, motion: float) -> Record
     if own is source or alone:
         return found
     return replace(source, ref_q=attitude_at(found, source.time))
-
-
-def _steps(shown: Rotation, time: np.ndarray) -> np.ndarray:
-    """Rates (n, 3) rad/s of attitudes (n,) since the ones before."""
-    steps = (shown[:-1].inv() * shown[1:]).as_rotvec() / np.diff(time)[:, None]
-    return np.vstack([steps[:1], steps])
 
 
 def _below(values: np.ndarray, time: np.ndarray, cut_off: float) -> np.ndarray:
