@@ -286,13 +286,14 @@ def _again(
     sensor: Sensor,
     free: frozenset[Key],
     believed: bool = False,
+    lags: bool = True,
 ) -> Investigation:
     """The investigation once more, with a formula in the model from the start, or the noise of the
-    reference ``believed``.
+    reference ``believed``; ``lags`` as of ``investigate``.
     """
     trials, held = list(inv.before.trials), list(inv.held)
     believed = believed or inv.believed
-    return investigate(sensor, free, trials, held, prior=prior, believed=believed)
+    return investigate(sensor, free, trials, held, prior=prior, believed=believed, lags=lags)
 
 
 def _file_of(part: Part | str | Path | None) -> list[Path]:

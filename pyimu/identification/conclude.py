@@ -56,6 +56,7 @@ from pyimu.model.sensor import Sensor
 from pyimu.recording.quality.inspect import NO_GRAVITY
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import looks_like_degrees
+from pyimu.recording.reference.file import other_time
 from pyimu.recording.reference.force import has_places
 from pyimu.report.numbers import joined
 
@@ -326,11 +327,13 @@ def _fates(kind: str, inv: Investigation, added: list[Added], noise: Noise) -> l
 
 
 def _said(evidence: Evidence, logs: list[Recording]) -> Verdict:
-    """The verdict; beside a reference that does not fit, the order in which it would."""
+    """The verdict; beside a reference that does not fit, the order or time in which it would."""
     said = verdict(evidence)
     if said.word != "reference_unfit":
         return said
-    return replace(said, remarks=(*filter(None, [other_order(logs)]), *said.remarks))
+    return replace(
+        said, remarks=(*filter(None, [other_order(logs), other_time(logs)]), *said.remarks)
+    )
 
 
 def _with_overviews(

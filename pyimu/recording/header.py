@@ -125,6 +125,8 @@ class Header:
             return
         if DOWNWARD.get(name, name) in self.names:
             raise UserError(f"{self.path}: column {name} stands twice in the header")
+        if not unit and UNITS[name] == "1":
+            unit = "1]"
         if not unit.endswith("]"):
             look = f"; pyimu inspect {self.path} looks which one the numbers fit"
             raise UserError(

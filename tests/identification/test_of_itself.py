@@ -109,6 +109,31 @@ def test_nothing_draws_the_attitude_of_a_camera(seed):
     assert pulled(gyro_trial(log), log) == 0.0
 
 
+@pytest.mark.parametrize("own", [True, False], ids=["filter", "satellites"])
+def test_a_mounting_beside_bends_is_no_filter(own):
+    """What a unit that is mounted a degree askew turns beside the gyro follows the bends, and so
+    does the force of a vehicle whose speed is even.
+    """
+    rng, count = np.random.default_rng(41), 30000
+    yaw = gaussian_filter1d(rng.standard_normal(count), 150.0)
+    rate = np.column_stack([np.zeros((count, 2)), yaw * 0.12 / yaw.std()])
+    speed = 6.0 + gaussian_filter1d(rng.standard_normal(count), 500.0) * 30.0
+    true = turned(Rotation.from_rotvec(0.5 * (rate[1:] + rate[:-1]) / RATE))
+    force = np.column_stack(
+        [np.gradient(speed) * RATE, speed * rate[:, 2], np.full(count, GRAVITY)]
+    )
+    gyro = rate + 0.003 + WHITE * rng.standard_normal(rate.shape)
+    force += 0.05 * rng.standard_normal(force.shape)
+    askew = Rotation.from_rotvec([0.004, -0.017, 0.0])
+    q = filtered("mahony", gyro - 0.0028, force, true[0], 0.05) if own else true * askew
+    noise = Rotation.from_rotvec(5e-5 * rng.standard_normal(rate.shape))
+    q = (q * noise).as_quat(scalar_first=True)
+    log = Recording.from_arrays(
+        "car", time=np.arange(count) / RATE, gyro=gyro, accel=force, ref_q=q
+    )
+    assert (pulled(gyro_trial(log), log) > 0.0) == own
+
+
 def test_rows_of_zeros_have_no_direction_and_no_say():
     """As a logger writes them before the first sample; numpy's warnings are errors here."""
     log = pushed(4, "mahony")

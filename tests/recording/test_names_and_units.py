@@ -235,6 +235,17 @@ def test_a_map_may_take_another_column_for_a_name_without_a_unit(tmp_path):
         read_recording(path, own)
 
 
+def test_what_is_a_plain_number_needs_no_unit(tmp_path):
+    q, rates = np.tile([1.0, 0.0, 0.0, 0.0], (50, 1)), np.full(50, 0.1)
+    names = [*(f"ref_q_{c}" for c in "wxyz"), "stationary", *(f"gyro_{c} [rad/s]" for c in "xyz")]
+    columns = [0.01 * np.arange(50), *q.T, np.ones(50), *[rates] * 3]
+    found = read_recording(
+        raw_logs.text(tmp_path / "l.csv", [",".join(["time [s]", *names])], columns)
+    )
+    np.testing.assert_array_equal(found.ref_q, q)
+    assert found.stationary.all()
+
+
 def attitudes(rows, turning):
     """Unit quaternions (rows, 4) of a tumbling body, or of one that is level, of nine digits."""
     angle = 2e-3 * np.outer(np.arange(rows), [1.0, 1.7, 0.6]) if turning else np.zeros((rows, 3))

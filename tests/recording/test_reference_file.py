@@ -10,7 +10,7 @@ from pyimu.recording.log import read_recording, read_reference
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import looks_like_degrees
 from pyimu.recording.reference.epoch import time_apart
-from pyimu.recording.reference.file import with_reference, with_references
+from pyimu.recording.reference.file import other_time, with_reference, with_references
 from pyimu.recording.reference.rate import reference_rate
 
 TIME = np.arange(0.0, 40.0, 0.005)
@@ -171,6 +171,19 @@ def test_how_far_two_clocks_are_apart_is_seen_by_their_turns(tmp_path, seed, shi
     both = with_reference(read_recording(own), read_reference(other, columns))
     left = np.linalg.norm(both.ref_rate, axis=1) - np.linalg.norm(hand(t, seed), axis=1)
     assert np.sqrt(np.mean(left**2)) < 0.1 * np.sqrt(np.mean(hand(t, seed) ** 2))
+
+
+@pytest.mark.parametrize("shift", [40.0, -55.0, 0.4])
+def test_clocks_far_apart_that_have_a_time_in_common_are_said(shift):
+    """What lies within seconds the loop sets itself."""
+    t, fine = np.arange(0.0, 90.0, 0.01), np.arange(-20.0, 110.0, 1 / 60)
+    own = Recording.from_arrays(name="log", time=t, gyro=hand(t, 7))
+    mocap = Recording.from_arrays(name="mocap", time=fine + shift, ref_rate=hand(fine, 7))
+    said = other_time([own, with_reference(own, mocap)])
+    assert bool(said) == (abs(shift) > 2.0)
+    if said:
+        assert ("earlier" if shift > 0 else "later") in said
+        assert float(said.split("value = ")[1].split(",")[0]) == pytest.approx(-shift, abs=0.05)
 
 
 def test_logs_of_two_motions_are_not_alike():

@@ -51,6 +51,7 @@ from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.forward import Investigation, Refused, Step
 from pyimu.identification.search.inexact import left_by_forms
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.search.own_lag import has_lag
 from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.identification.search.rounded import within_digits, without_rounding
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
@@ -98,8 +99,8 @@ def look(
 ) -> Look:
     """Look for a formula for what an investigation left.
 
-    ``again(sensor, free, believed=False)`` investigates with one in the model, or what may be noise
-    of the reference believed.
+    ``again(sensor, free, believed=False, lags=True)`` investigates with one in the model, or what
+    may be noise of the reference believed; without ``lags`` that clocks hide, where none was found.
     """
     trials, kind = inv.after.trials, inv.after.sensor.kind
     if any(t.reduction is not None for t in trials) or all(
@@ -273,7 +274,8 @@ def _beside(
     held-out rows leave them.
     """
     bare = inv.before.sensor.with_values(name, **fitted.sensor.values[name])
-    beside = again(bare, inv.before.free | keys_of_terms(name, chosen))
+    free = inv.before.free | keys_of_terms(name, chosen)
+    beside = again(bare, free, lags=has_lag(inv.before))
     keys = coefficients_of(beside.after.sensor, name) & beside.after.free
     chosen, own = _grown(chosen, keys), fit_and_normal(beside.after)[1]
     left = borne(own, beside.after.sensor, name, chosen, needed)

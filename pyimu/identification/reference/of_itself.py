@@ -91,24 +91,29 @@ def pulled(trial: Trial, recording: Recording) -> float:
     turns, beside the gyro, towards the accelerometer's up; zero where it does not.
 
     A gyro whose drift depends on the force would show the same. The gain is more than any part
-    has of that.
+    has of that. What is proportional to the rate is left out of both: a mounting turns by that, and
+    a body that goes round a bend is pushed by it.
     """
     if trial.reference != "attitude" or recording.accel is None or len(trial.axes) < 3:
         return 0.0
     late = 0.0 if trial.clock is None else trial.clock.mean
-    beside, pull = _beside_and_pull(recording, late)
+    rate, beside, pull = _beside_and_pull(recording, late)
     if len(beside) < LEAST_BLOCKS:
         return 0.0
-    beside, pull = beside - beside.mean(axis=0), pull - pull.mean(axis=0)
+    known = np.column_stack([np.ones(len(rate)), rate])
+    beside, pull = (v - known @ np.linalg.lstsq(known, v, rcond=None)[0] for v in (beside, pull))
     both, powers = np.sum(beside * pull), [np.sum(v * v) for v in (beside, pull)]
     gain = float(both / max(powers[1], 1e-300))
     follows = both > FOLLOWS * np.sqrt(powers[0] * powers[1])
     return gain if follows and gain > most("g_sensitivity", "gyro", "G") * STANDARD_GRAVITY else 0.0
 
 
-def _beside_and_pull(recording: Recording, late: float) -> tuple[np.ndarray, np.ndarray]:
-    """In blocks of a recording whose reference is ``late`` s ahead, the rate (m, 3) rad/s at which
-    the reference turns beside the gyro, and the turn (m, 3) rad from its up to the force's.
+def _beside_and_pull(
+    recording: Recording, late: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """In blocks of a recording whose reference is ``late`` s ahead, the gyro's rate (m, 3) rad/s,
+    the rate (m, 3) rad/s at which the reference turns beside it, and the turn (m, 3) rad from its
+    up to the force's.
     """
     source = recording if recording.reference is None else recording.reference
     q = attitude_at(source, recording.time - late)
@@ -120,7 +125,7 @@ def _beside_and_pull(recording: Recording, late: float) -> tuple[np.ndarray, np.
     seen = np.isfinite(np.column_stack([q, force, recording.gyro])).all(axis=1)
     rows = rows[seen[rows].all(axis=1)]
     if not len(rows):
-        return np.zeros((0, 3)), np.zeros((0, 3))
+        return np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3))
     gyro, step = recording.gyro[rows], np.diff(recording.time[rows], axis=1)[:, :, None]
     turns = (0.5 * (gyro[:, 1:] + gyro[:, :-1]) * step).swapaxes(0, 1)
     none = np.zeros((*turns.shape, 0))
@@ -129,7 +134,7 @@ def _beside_and_pull(recording: Recording, late: float) -> tuple[np.ndarray, np.
     beside = (turned.inv() * ends[0].inv() * ends[1]).as_rotvec() / step.sum(axis=1)
     attitude = Rotation.from_quat(q[rows].reshape(-1, 4), scalar_first=True)
     up = attitude.inv().apply([0.0, 0.0, 1.0]).reshape(*rows.shape, 3)
-    return beside, np.cross(force[rows], up).mean(axis=1)
+    return gyro.mean(axis=1), beside, np.cross(force[rows], up).mean(axis=1)
 
 
 def is_of_itself(trial: Trial) -> bool:

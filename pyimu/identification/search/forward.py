@@ -158,12 +158,14 @@ def investigate(
     unfit: str = "",
     believed: bool = False,
     lines: int = MOST_LINES,
+    lags: bool = True,
 ) -> Investigation:
     """Find what ``sensor``, with coefficients ``free``, lacks to explain ``trials``, confirmed on
     ``held``; ``prior`` are standard deviations of coefficients that nobody declared, ``unfit`` why
     the reference does not belong to the sensor, so that nothing is looked for. What may be noise of
     the reference or what an effect left is ``believed`` to be the former, or told by the sensor's
-    own signal; of lines that are the reference's so many are taken out of it at most.
+    own signal; of lines that are the reference's so many are taken out of it at most. ``lags`` says
+    whether a lag of the sensor's own that clocks may hide is looked for, which is long.
     """
     say(f"{sensor.kind}: fitting the model as declared")
     first = _first(begin(sensor, free, trials, prior), believed)
@@ -175,7 +177,7 @@ def investigate(
     if has_ceiling(sensor):
         before = without_lost(before)
         apart = [with_limited(sensor, t) for t in apart]
-    search = _Search(before, sensor, apart, believed, lines)
+    search = _Search(before, sensor, apart, believed, lines, lags)
     while len(search.steps) < MOST_EFFECTS:
         known, count = len(search.steps), len(search.seen.candidates)
         say(f"{sensor.kind}: {known} added, trying {count} candidates")
@@ -183,9 +185,9 @@ def investigate(
             break
     if search.line is not None:
         trials, held = without_line(search.line.fit, search.line.screened.effect, trials, held)
-        return investigate(sensor, free, trials, held, say, prior, "", believed, lines - 1)
+        return investigate(sensor, free, trials, held, say, prior, "", believed, lines - 1, lags)
     if not believed and _is_of_reference(search):
-        return investigate(sensor, free, trials, held, say, prior, "", True, lines)
+        return investigate(sensor, free, trials, held, say, prior, "", True, lines, lags)
     after, steps = _backward(search.after, search.steps)
     after, steps, last = _by_fewer(after, steps, search)
     after, steps = _with_intervals(after, steps), _scattering_at_last(after, steps, last)
@@ -251,11 +253,13 @@ class _Search:
         held: list[Trial],
         believed: bool = False,
         lines: int = MOST_LINES,
+        lags: bool = True,
     ) -> None:
         self.before, self.sensor, self.held = before, sensor, held
         self.believed, self.lines = believed, lines
         self.line: Refined | None = None
-        self.lag_tried = False
+        self.lags = lags
+        self.without_lag: Fit | None = None
         self.after, self.steps = _as_sampled(before, held)
         if self.steps and any(t.limited is not None for t in self.after.trials):
             # What was left at the limit is no noise of the reference.
@@ -271,10 +275,13 @@ class _Search:
 
     def _lags(self) -> bool:
         """Take in a lag that clocks may hide, or refuse it; False where there is none."""
-        found = None if self.lag_tried else lag_beside_clocks(self.after, self.seen.gate)
-        if found is None:
+        if not self.lags or self.after is self.without_lag:
             return False
-        self.lag_tried = True
+        found = lag_beside_clocks(self.after, self.seen.gate)
+        if found is None:
+            self.without_lag = self.after
+            return False
+        self.lags = False
         # Where all that the sensor is late may be its own, one coefficient may do for both.
         own = any(t.clock.own for t in self.after.trials)
         alone = chosen_of(self.tried, self.seen.above(), self.seen.gate)[0] if own else None

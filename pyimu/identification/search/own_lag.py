@@ -116,6 +116,13 @@ def beside_clocks(current: Fit) -> Fit:
     return fit(replace(current, trials=tuple(map(apart, current.trials))).with_noise())
 
 
+def has_lag(before: Fit) -> bool:
+    """Whether the model that an investigation began with is ``beside_clocks``: a lag was found
+    then.
+    """
+    return any(t.clock is not None and t.clock.apart for t in before.trials)
+
+
 def _forms(current: Fit) -> list[Effect]:
     """Effects that delay, and damp what is quick."""
     if current.sensor.kind != "gyro" or current.is_reduced:

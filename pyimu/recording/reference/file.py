@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -20,6 +20,9 @@ TRUTHS = tuple(name for name in GROUPS if name.startswith("ref_"))
 
 DAY = 86400.0
 """s; clocks whose starts differ by more count from different epochs."""
+
+LEAST_APART = 2.0
+"""s; a clock that is off by less is set by itself, and no reason for what no reference shows."""
 
 
 def with_reference(log: Recording, reference: Recording) -> Recording:
@@ -88,14 +91,35 @@ def _check_overlap(log: Recording, reference: Recording) -> None:
         "their clocks count from different epochs" if epochs else "log and reference do not overlap"
     )
     apart = time_apart(log, reference)
-    given = sum(f.detail["offset"] for f in reference.findings if f.kind == "time_offset")
-    offset = given + (first - begins if apart is None else apart)
     why = "if both begin together" if apart is None else "with which the two turn alike"
     raise UserError(
         f"{reference.name} covers {_span(reference, _origin(log))} and {log.name} "
-        f"{_span(log, _origin(log))}: {what}; write "
-        f'time_offset = {{value = {offset:.12g}, unit = "s"}} in the column map of '
-        f"{reference.name} (--reference-columns), {why}"
+        f"{_span(log, _origin(log))}: {what}; "
+        f"{_to_write(reference, first - begins if apart is None else apart)}, {why}"
+    )
+
+
+def other_time(logs: Iterable[Recording]) -> str:
+    """By how much the clock of the first reference, in a file of its own, must be set for it to
+    turn when its log does; nothing where no such time is seen, or one within ``LEAST_APART``.
+    """
+    for log in logs:
+        apart = time_apart(log, log.reference) if log.reference_apart else None
+        if apart is not None and abs(apart) > LEAST_APART:
+            when = "later" if apart > 0 else "earlier"
+            return (
+                f"the two turn alike where the times of {log.reference.name} are "
+                f"{abs(apart):.6g} s {when}: {_to_write(log.reference, apart)}"
+            )
+    return ""
+
+
+def _to_write(reference: Recording, apart: float) -> str:
+    """What to write in a reference's column map to add ``apart`` s to its times."""
+    given = sum(f.detail["offset"] for f in reference.findings if f.kind == "time_offset")
+    return (
+        f'write time_offset = {{value = {given + apart:.12g}, unit = "s"}} in the column map of '
+        f"{reference.name} (--reference-columns)"
     )
 
 
