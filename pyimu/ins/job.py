@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.rest import Rest
@@ -24,6 +25,7 @@ from pyimu.ins.smoothing import smoothed
 from pyimu.ins.track import Reference, Track
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
+from pyimu.recording.turning import carried
 
 FIXES = 10.0
 """Standard deviations of a position that such a way is long at least."""
@@ -43,13 +45,29 @@ LATER_STD = 1e-3
 sample (``heading_std0``)."""
 
 
+LATER_BIAS_STD = 3e-3
+"""rad/s; by how much the gyro's bias of a first sample may differ from that of a later rest. A
+consumer part's warms up by 0.2 deg/s (``typical.toml``)."""
+
+PUSHES = 30.0
+"""s; over which the mean force is taken that tells the tilt of a body in motion."""
+
+CLIMBS = 0.1
+"""Of the top speed: how fast a body may go upwards at first."""
+
+TWICE, LEAST_STD = 2.0, 0.1
+"""Times the standard deviation that the path itself gives the first velocity, and m/s: the same
+measurements are used again, and the constraint may contradict them."""
+
+
 @dataclass(frozen=True, eq=False)
 class Job:
     """A recording and what is known before the filter runs over it.
 
     ``clean`` is the recording without the errors that the part knows; ``still`` (n,) marks rests,
     which the filter looks for where it is ``live``; ``fixes`` are its positions and velocities,
-    None without.
+    None without. Of a body that is first seen in motion, ``later`` is a rest of its samples, and
+    ``begun`` the path by these positions.
     """
 
     recording: Recording
@@ -66,6 +84,8 @@ class Job:
     wheels: bool = False
     lasting: Lasting | None = None
     crabs: Crabbing | None = None
+    later: Rest | None = None
+    begun: Track | None = None
 
     @cached_property
     def layout(self) -> Layout:
@@ -92,7 +112,42 @@ class Job:
         wheels = {"speed_late_std": self.late} if measures_speed(self.recording) else {}
         wheels |= {} if self.crabs is None else self.crabs.settings
         told = fixes | lasts | wheels | start.settings | dict(self.settings)
-        return with_values(self.block, values | told)
+        return with_values(self.block, self._moving_start(told) | values | told)
+
+    def _moving_start(self, told: Mapping[str, Any]) -> dict[str, float]:
+        """What is known of velocity and gyro bias at a first sample in motion: the one is at most
+        the top speed, or that of ``begun``, the other near what a rest shows later.
+        """
+        if self.rest.seen:
+            return {}
+        known = {v.name: v.start for v in self.block.parameters}
+        top = float(told.get("top_speed", known["top_speed"]))
+        stds, least = (top, CLIMBS * top), (known["velocity_std0"], known["climb_std0"])
+        settings = {} if self.later is None else self._mean_tilt
+        if self.begun is not None:
+            velocity, (*plane, up) = self.begun.velocity[0], self.begun.velocity_std[0]
+            settings = {f"velocity0[{i}]": float(v) for i, v in enumerate(velocity, 1)}
+            stds, least = (TWICE * max(plane), TWICE * up), (LEAST_STD, LEAST_STD)
+            back = Rotation.from_quat(self.begun.q[0], scalar_first=True).inv()
+            settings |= _tilt(back.apply([0.0, 0.0, 1.0]))
+        settings["velocity_std0"], settings["climb_std0"] = map(float, map(max, stds, least))
+        for i, b in enumerate(() if self.later is None else self.later.rate, 1):
+            settings[f"gyro_bias0[{i}]"] = float(b)
+            name = f"gyro_bias_std0[{i}]"
+            settings[name] = min(known[name], LATER_BIAS_STD)
+        return settings
+
+    @cached_property
+    def _mean_tilt(self) -> dict[str, float]:
+        """The tilt at a first sample in motion, by the mean force of what follows in its axes: what
+        pushes a body to and fro leaves little of that, where a bend leans its own by 30 deg.
+        """
+        r, (start, stop) = self.clean, self.clean.segments[0]
+        rows = slice(start, min(stop, start + round(PUSHES / r.sample_period)))
+        turns = np.nan_to_num(r.gyro[rows] - self.later.rate) * r.sample_period
+        force = np.nan_to_num(r.accel[rows])
+        _, total = carried(turns[:, None], force[:, None, :, None], np.array([len(turns)]))
+        return _tilt(total[0, :, 0])
 
     def told(self, start: Start) -> dict[str, Any]:
         """What a result says of it, by the fields of ``Outcome``."""
@@ -135,6 +190,18 @@ class Job:
             return self
         free = replace(self, nhc=False).smoothed(start, say)
         return replace(self, crabs=crabbing(free, self.recording.gyro[:, 2]))
+
+    def with_begun(self, start: Start, say: Callable[..., None]) -> Job:
+        """The job with a path by its positions of a body that is first seen in motion: itself where
+        it is seen at rest, or has no positions.
+
+        Beside a speed of which nothing is known the slopes of a first run are far off, and a
+        vehicle's constraint, without which that is, would take the speed for one along axes that
+        are not known yet.
+        """
+        if self.rest.seen or self.fixes is None or not len(self.fixes.rows):
+            return self
+        return replace(self, begun=replace(self, nhc=False).smoothed(start, say))
 
     @property
     def of_errors(self) -> list[Finding]:
@@ -217,6 +284,12 @@ class Job:
         course = _course(reference.rows, reference.position, track, COURSE)
         source = f"the course of the reference's first {COURSE:g} m"
         return None if course is None else Start(course, source)
+
+
+def _tilt(up: np.ndarray) -> dict[str, float]:
+    """The filter's parameters of a start in which ``up`` (3,), in body axes, is upright."""
+    roll, pitch = np.arctan2(up[1], up[2]), np.arctan2(-up[0], np.hypot(up[1], up[2]))
+    return {"tilt0": 1.0, "roll0": float(roll), "pitch0": float(pitch)}
 
 
 @dataclass(frozen=True)

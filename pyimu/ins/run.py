@@ -32,7 +32,15 @@ from pyimu.ins.measured import (
 )
 from pyimu.ins.result import NavigationResult
 from pyimu.ins.stances import standing
-from pyimu.ins.stops import ZUPT, clean_of, noise_at_rest, rest_at_start, stops_of
+from pyimu.ins.stops import (
+    ZUPT,
+    clean_of,
+    is_of_start,
+    later_rest,
+    noise_at_rest,
+    rest_at_start,
+    stops_of,
+)
 from pyimu.ins.track import Reference, Track, reference_of
 from pyimu.ins.vibration import Samples, faster
 from pyimu.model.part import Part
@@ -161,7 +169,9 @@ def _with_own_errors(
     """The job with the errors of its measurements that a first run ``found``, and the run with
     them: errors of positions that last, and a vehicle that goes askew.
     """
-    job = job.with_lasting(found, start, say).with_crabbing(start, say)
+    begun = job.with_begun(start, say)
+    found = found if begun is job else begun.filtered(start)
+    job = begun.with_lasting(found, start, say).with_crabbing(start, say)
     if job.lasting is None and job.crabs is None:
         return job, found
     found = job.filtered(start)
@@ -214,8 +224,10 @@ def _job(
     samples = Samples.of(clean_of(recording, declared), zupt in SHAKEN)
     clean, turns = samples.calm, samples.findings
     rest = rest_at_start(samples.seen, declared, gravity)
-    part = known_part(declared, recording, rest)
-    noise = noise_at_rest(samples.seen, part, rest, declared)
+    later = None if is_of_start(rest) else later_rest(samples.seen, declared, gravity)
+    shown = later or rest
+    part = known_part(declared, recording, shown)
+    noise = noise_at_rest(samples.seen, part, shown, declared)
     if clean.stationary is not None:
         still, _ = stops_of(clean, noise, zupt, turns)
     else:
@@ -230,7 +242,9 @@ def _job(
     drawn = samples.without(drawn, still)
     clipped = _clipped(recording, part, stds, given)
     settings = {"zupt": updates, "zaru": updates} | clipped | given
-    return Job(drawn, clean, part, rest, still, 0.0, gravity, False, zupt == "live", None, settings)
+    live = zupt == "live"
+    job = Job(drawn, clean, part, rest, still, 0.0, gravity, False, live, None, settings)
+    return replace(job, later=later)
 
 
 def _clipped(recording: Recording, part: Part, stds: list[float | None], given: dict) -> dict:

@@ -19,6 +19,7 @@ from pyimu.ins.speeds import driven
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
+from pyimu.recording.rest import rests
 
 ZUPT = ("auto", "live", "foot", "declared", "off")
 """Where zero-velocity updates come from: the column ``stationary``, else the samples before and
@@ -27,6 +28,10 @@ stances of a sensor on a foot besides; that column alone; nowhere."""
 
 FIRST = 0.5
 """s; over which the means are taken that a part with wide tolerances may have at rest."""
+
+LATER = 2.0
+"""s; length at least of a rest within a log that tells noise and bias of one that begins in motion:
+a second of a smooth drive may be as still."""
 
 SIGMAS = 3.0
 """Standard deviations of a tolerance up to which a mean is taken for an error of the part."""
@@ -47,6 +52,24 @@ def rest_at_start(recording: Recording, part: Part | None, gravity: float) -> Re
     )
     force = None if rest.force is None else rest.force * size
     return replace(rest, rate=rest.rate + null, force=force)
+
+
+def is_of_start(rest: Rest) -> bool:
+    """Whether a rest at the start shows the sensors' noise, be its force gravity or not."""
+    return rest.seen or rest.other_force is not None
+
+
+def later_rest(recording: Recording, part: Part | None, gravity: float) -> Rest | None:
+    """What the longest rest of a recording that begins in motion shows, of ``LATER`` s at least and
+    by its samples, whatever it declares; None where there is none.
+    """
+    recording = replace(recording, stationary=None)
+    found = [(b - a, a) for a, b in rests(recording) if (b - a) * recording.sample_period >= LATER]
+    for _, start in sorted(found, reverse=True):
+        rest = rest_at_start(recording.slice(start), part, gravity)
+        if is_of_start(rest):
+            return rest
+    return None
 
 
 def _by_tolerance(recording: Recording, part: Part, gravity: float) -> tuple[np.ndarray, float]:
@@ -108,10 +131,10 @@ def stops_of(
 
 
 def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: Part | None) -> Noise:
-    """What a detector needs of the sensors: the part's noise, or that of the rest at the start
-    where it is larger. ``declared`` is the part as its maker has it.
+    """What a detector needs of the sensors: the part's noise, or that of the first rest where it is
+    larger. ``declared`` is the part as its maker has it.
     """
-    still = rest.seen or rest.other_force is not None
+    still = is_of_start(rest)
     stds, walks = [], []
     for kind, seen in (("gyro", rest.rate_std), ("accel", rest.force_std)):
         white, walk = _noise(part.sensor(kind), recording.sample_period)

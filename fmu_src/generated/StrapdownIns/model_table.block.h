@@ -7,33 +7,33 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{62f8e794-aa1b-80ea-0a45-4bd79a2428a2}"
-#define MODEL_TOKEN_FMI3 "{6c9c9572-87d3-b06c-78c6-c886e0eee0fe}"
+#define MODEL_TOKEN_FMI2 "{2f78c7b6-471e-ddc4-8a1f-150693ccf920}"
+#define MODEL_TOKEN_FMI3 "{1c5f1437-c729-a5cb-7413-ff74db1d440c}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 21,
-    N_PARAMETERS = 52,
+    N_PARAMETERS = 63,
     N_OUTPUTS = 43,
     N_STATES = 399,
     N_CONSTANTS = 0,
     N_NOISE = 0,
-    N_VARIABLES = 72
+    N_VARIABLES = 79
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 2857 };
+enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 2879 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 455899 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 455097 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 455899 };
+enum { MODEL_MOST_SAMPLES = 455097 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 455899.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 455097.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
@@ -51,36 +51,43 @@ static const BlockVariable variables[] = {
     {"gravity", KIND_REAL, ROLE_TUNABLE, 1, 1, 0.001, INFINITY},
     {"heading0", KIND_REAL, ROLE_FIXED, 2, 1, -INFINITY, INFINITY},
     {"heading_std0", KIND_REAL, ROLE_FIXED, 3, 1, 0.0, INFINITY},
-    {"tilt_std0", KIND_REAL, ROLE_FIXED, 4, 1, 0.0, INFINITY},
-    {"velocity_std0", KIND_REAL, ROLE_FIXED, 5, 1, 0.0, INFINITY},
-    {"position_std0", KIND_REAL, ROLE_FIXED, 6, 1, 0.0, INFINITY},
-    {"gyro_bias_std0", KIND_REAL, ROLE_FIXED, 7, 3, 0.0, INFINITY},
-    {"accel_bias_std0", KIND_REAL, ROLE_FIXED, 10, 3, 0.0, INFINITY},
-    {"zupt", KIND_REAL, ROLE_TUNABLE, 13, 1, 0.0, INFINITY},
-    {"zaru", KIND_REAL, ROLE_TUNABLE, 14, 1, 0.0, INFINITY},
-    {"zupt_std", KIND_REAL, ROLE_TUNABLE, 15, 1, 1e-06, INFINITY},
-    {"detect", KIND_REAL, ROLE_TUNABLE, 16, 1, 0.0, INFINITY},
-    {"rest_window", KIND_REAL, ROLE_TUNABLE, 17, 1, 0.001, INFINITY},
-    {"rest_noise", KIND_REAL, ROLE_TUNABLE, 18, 1, 0.001, INFINITY},
-    {"nhc", KIND_REAL, ROLE_TUNABLE, 19, 1, 0.0, INFINITY},
-    {"nhc_std", KIND_REAL, ROLE_TUNABLE, 20, 1, 1e-06, INFINITY},
-    {"nhc_time", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
-    {"lever_arm", KIND_REAL, ROLE_FIXED, 22, 3, -INFINITY, INFINITY},
-    {"antenna", KIND_REAL, ROLE_FIXED, 25, 3, -INFINITY, INFINITY},
-    {"clipped_rate_std", KIND_REAL, ROLE_TUNABLE, 28, 3, 0.0, INFINITY},
-    {"clipped_force_std", KIND_REAL, ROLE_TUNABLE, 31, 3, 0.0, INFINITY},
-    {"top_speed", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.001, INFINITY},
-    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.001, INFINITY},
-    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.001, INFINITY},
-    {"speed_scale_std", KIND_REAL, ROLE_FIXED, 37, 1, 0.0, INFINITY},
-    {"speed_late_std", KIND_REAL, ROLE_FIXED, 38, 1, 0.0, INFINITY},
-    {"lever_arm_std", KIND_REAL, ROLE_FIXED, 39, 1, 0.0, INFINITY},
-    {"crab_std", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, INFINITY},
-    {"crab_time", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.001, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 42, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 45, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 46, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 49, 3, 0.0, INFINITY},
+    {"tilt0", KIND_REAL, ROLE_FIXED, 4, 1, 0.0, INFINITY},
+    {"roll0", KIND_REAL, ROLE_FIXED, 5, 1, -INFINITY, INFINITY},
+    {"pitch0", KIND_REAL, ROLE_FIXED, 6, 1, -INFINITY, INFINITY},
+    {"tilt_std0", KIND_REAL, ROLE_FIXED, 7, 1, 0.0, INFINITY},
+    {"velocity0", KIND_REAL, ROLE_FIXED, 8, 3, -INFINITY, INFINITY},
+    {"velocity_std0", KIND_REAL, ROLE_FIXED, 11, 1, 0.0, INFINITY},
+    {"climb_std0", KIND_REAL, ROLE_FIXED, 12, 1, 0.0, INFINITY},
+    {"position_std0", KIND_REAL, ROLE_FIXED, 13, 1, 0.0, INFINITY},
+    {"gyro_bias0", KIND_REAL, ROLE_FIXED, 14, 3, -INFINITY, INFINITY},
+    {"gyro_bias_std0", KIND_REAL, ROLE_FIXED, 17, 3, 0.0, INFINITY},
+    {"accel_bias_std0", KIND_REAL, ROLE_FIXED, 20, 3, 0.0, INFINITY},
+    {"zupt", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
+    {"zaru", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
+    {"zupt_std", KIND_REAL, ROLE_TUNABLE, 25, 1, 1e-06, INFINITY},
+    {"detect", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
+    {"rest_window", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.001, INFINITY},
+    {"rest_noise", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.001, INFINITY},
+    {"nhc", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
+    {"nhc_std", KIND_REAL, ROLE_TUNABLE, 30, 1, 1e-06, INFINITY},
+    {"nhc_angle_std", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},
+    {"nhc_time", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
+    {"lever_arm", KIND_REAL, ROLE_FIXED, 33, 3, -INFINITY, INFINITY},
+    {"antenna", KIND_REAL, ROLE_FIXED, 36, 3, -INFINITY, INFINITY},
+    {"clipped_rate_std", KIND_REAL, ROLE_TUNABLE, 39, 3, 0.0, INFINITY},
+    {"clipped_force_std", KIND_REAL, ROLE_TUNABLE, 42, 3, 0.0, INFINITY},
+    {"top_speed", KIND_REAL, ROLE_TUNABLE, 45, 1, 0.001, INFINITY},
+    {"top_acceleration", KIND_REAL, ROLE_TUNABLE, 46, 1, 0.001, INFINITY},
+    {"top_turn_rate", KIND_REAL, ROLE_TUNABLE, 47, 1, 0.001, INFINITY},
+    {"speed_scale_std", KIND_REAL, ROLE_FIXED, 48, 1, 0.0, INFINITY},
+    {"speed_late_std", KIND_REAL, ROLE_FIXED, 49, 1, 0.0, INFINITY},
+    {"lever_arm_std", KIND_REAL, ROLE_FIXED, 50, 1, 0.0, INFINITY},
+    {"crab_std", KIND_REAL, ROLE_TUNABLE, 51, 1, 0.0, INFINITY},
+    {"crab_time", KIND_REAL, ROLE_TUNABLE, 52, 1, 0.001, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 53, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 56, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 57, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 60, 3, 0.0, INFINITY},
     {"q", KIND_REAL, ROLE_OUTPUT, 0, 4, -INFINITY, INFINITY},
     {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
@@ -108,12 +115,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 71,
+    SAMPLE_PERIOD = 78,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.01};
-static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.3, 1.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.02, 0.0, 0.1, 0.01, 10.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 9.80665, 0.0, 0.001, 0.0, 0.0, 0.0, 0.3, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 1.0, 1.0, 0.001, 1.0, 0.3, 1.0, 0.0, 0.02, 0.01, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 5.0, 2.0, 0.02, 0.0, 0.1, 0.01, 10.0, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

@@ -9,7 +9,16 @@ from __future__ import annotations
 import casadi as ca
 
 from pyimu.attitude.filter.settings import Settings
-from pyimu.ins.filter.layout import BASE, GYRO_BIAS, POSITION, RESTING, TURN, Layout, State
+from pyimu.ins.filter.layout import (
+    BASE,
+    GYRO_BIAS,
+    POSITION,
+    RESTING,
+    TURN,
+    VELOCITY,
+    Layout,
+    State,
+)
 from pyimu.ins.filter.weight import in_world, upright_of
 from pyimu.symbolic import quaternion
 
@@ -18,10 +27,14 @@ OF_WHEELS = ("speed_scale_std", "speed_late_std", *["lever_arm_std"] * 2, "crab_
 
 
 def first(layout: Layout, force, settings: Settings) -> State:
-    """The estimate at the first sample: level by its ``force`` (3,), at the origin, at rest."""
+    """The estimate at the first sample: level by its ``force`` (3,), at the origin."""
     at = settings.scalar
     fx, fy, fz = ca.vertsplit(force)
     roll, pitch = ca.atan2(fy, fz), ca.atan2(-fx, ca.sqrt(fy * fy + fz * fz))
+    roll, pitch = (
+        ca.if_else(at["tilt0"] > 0.5, at[name], seen)
+        for name, seen in (("roll0", roll), ("pitch0", pitch))
+    )
     return _begun(layout, quaternion.from_euler(roll, pitch, at["heading0"]), settings)
 
 
@@ -31,7 +44,7 @@ def zero(layout: Layout, settings: Settings) -> State:
 
 
 def _begun(layout: Layout, q, settings: Settings) -> State:
-    """The estimate at the start in an attitude ``q``, of which biases and gains are not known."""
+    """The estimate at the start in an attitude ``q``."""
     at, n = settings.scalar, layout.errors
 
     def three(name: str) -> list:
@@ -40,7 +53,8 @@ def _begun(layout: Layout, q, settings: Settings) -> State:
     std = ca.vertcat(
         *[at["tilt_std0"]] * 2,
         at["heading_std0"],
-        *[at["velocity_std0"]] * 3,
+        *[at["velocity_std0"]] * 2,
+        at["climb_std0"],
         *[at["position_std0"]] * 3,
         *three("gyro_bias_std0"),
         *three("accel_bias_std0"),
@@ -58,12 +72,15 @@ def _begun(layout: Layout, q, settings: Settings) -> State:
     spread[RESTING, TURN] = ca.skew(upright)
     spread[RESTING, RESTING] = axes
     spread[RESTING, BASE : BASE + len(layout.gains)] = axes @ layout.slopes("accel", resting)
+    velocity, bias = (ca.vertcat(*three(name)) for name in ("velocity0", "gyro_bias0"))
+    # v + e + phi x v is known to velocity_std0, not e
+    spread[VELOCITY, TURN] = ca.skew(velocity)
     if layout.lasting:
         # the first position is the origin, which is off by its error
         spread[POSITION, layout.of_positions] = -ca.SX.eye(3)
     covariance = spread @ ca.diag(std**2) @ spread.T
     more = [ca.SX.zeros(n) for n in (2 * layout.nhc, 5 * layout.wheels, 3 * layout.lasting)]
-    known = (q, none, none, none, resting, gains, *more, none)
+    known = (q, velocity, none, bias, resting, gains, *more, none)
     return State(*known, ca.densify(covariance))
 
 

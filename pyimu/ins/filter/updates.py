@@ -130,7 +130,8 @@ def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
     With the velocity v_b = R^T v + w x l of the point at the lever arm l in body axes, and the
     mounting (a, b), vehicle axes pitched by a and turned by b: v_y - b v_x = 0 and v_z + a v_x = 0.
     A slip lasts: its variance holds for ``nhc_time``, so that each sample has that of white noise
-    of the same density. The mounting is estimated with the rest.
+    of the same density. It grows with the speed, as tyres slip and springs pitch by an angle. The
+    mounting is estimated with the rest.
     """
     at = settings.scalar
     back = quaternion.to_matrix(quaternion.conjugate(x.q))
@@ -154,7 +155,8 @@ def by_vehicle(layout: Layout, x: State, rate, settings: Settings, h) -> tuple:
         slope[0, layout.crabs] = -speed[0]
     own = settings.gyro.white**2 * reciprocal(h)
     of_arm = (of_speed @ ca.skew(arm)) ** 2 @ own
-    noise = at["nhc_std"] ** 2 * ca.fmax(2 * at["nhc_time"] * reciprocal(h), 1) + of_arm
+    slip = at["nhc_std"] ** 2 + (at["nhc_angle_std"] * speed[0]) ** 2
+    noise = slip * ca.fmax(2 * at["nhc_time"] * reciprocal(h), 1) + of_arm
     return corrected_by(layout, x, -of_speed @ speed, slope, noise, settings)
 
 

@@ -56,16 +56,28 @@ def _setting(name: str, unit: str, text: str, start: float, minimum: float = 0.0
 START_VALUES = (
     _fixed("heading0", "rad", "heading at the start, counter-clockwise from east", 0.0, None),
     _fixed("heading_std0", "rad", "standard deviation of that heading", 1e-3),
+    _fixed("tilt0", "1", "1 where the start is in the roll and pitch given, 0: by its force", 0.0),
+    _fixed("roll0", "rad", "roll at the start", 0.0, None),
+    _fixed("pitch0", "rad", "pitch at the start", 0.0, None),
     _fixed(
         "tilt_std0",
         "rad",
-        "standard deviation of roll and pitch at the start, which are those of the first force. "
+        "standard deviation of roll and pitch at the start, by default those of the first force. "
         "Wide on purpose: what a rest shows of tilt and accelerometer bias together, and of each "
         "hardly anything, the first zero velocities tell with the right correlation",
         0.3,
     ),
-    _fixed("velocity_std0", "m/s", "standard deviation of the velocity at the start, 0", 1.0),
+    *(
+        replace(v, fixed=True)
+        for v in array("velocity0", "m/s", "velocity at the start: east, north, up")
+    ),
+    _fixed("velocity_std0", "m/s", "standard deviation of that velocity, to east and north", 1.0),
+    _fixed("climb_std0", "m/s", "standard deviation of that velocity, upwards", 1.0),
     _fixed("position_std0", "m", "standard deviation of the position at the start, 0", 0.0),
+    *(
+        replace(v, fixed=True)
+        for v in array("gyro_bias0", "rad/s", "gyro bias at the start, beside the part's")
+    ),
     *(
         replace(v, minimum=0.0, fixed=True)
         for v in (
@@ -109,6 +121,13 @@ SETTINGS = (
         "nhc", "1", "a vehicle's wheels move neither sideways nor upwards: its constraint", 0.0
     ),
     _setting("nhc_std", "m/s", "standard deviation of the slip sideways and upwards", 0.02, 1e-6),
+    _setting(
+        "nhc_angle_std",
+        "rad",
+        "standard deviation of the angle by which tyres slip and springs pitch: a slip of so much "
+        "of the speed",
+        0.01,
+    ),
     _setting("nhc_time", "s", "time for which a slip lasts", 0.1),
     *(
         replace(v, fixed=True)
