@@ -22,6 +22,7 @@ from pyimu.ins.filtered import Filtered, filtered
 from pyimu.ins.lasting import Lasting, lasting, too_small
 from pyimu.ins.measured import COURSE, Fixes, measures_speed
 from pyimu.ins.smoothing import smoothed
+from pyimu.ins.stops import is_of_start
 from pyimu.ins.track import Reference, Track
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
@@ -118,12 +119,12 @@ class Job:
         """What is known of velocity and gyro bias at a first sample in motion: the one is at most
         the top speed, or that of ``begun``, the other near what a rest shows later.
         """
-        if self.rest.seen:
+        if is_of_start(self.rest):
             return {}
         known = {v.name: v.start for v in self.block.parameters}
         top = float(told.get("top_speed", known["top_speed"]))
         stds, least = (top, CLIMBS * top), (known["velocity_std0"], known["climb_std0"])
-        settings = {} if self.later is None else self._mean_tilt
+        settings = {} if self.later is None else dict(self._mean_tilt)
         if self.begun is not None:
             velocity, (*plane, up) = self.begun.velocity[0], self.begun.velocity_std[0]
             settings = {f"velocity0[{i}]": float(v) for i, v in enumerate(velocity, 1)}
@@ -199,7 +200,7 @@ class Job:
         vehicle's constraint, without which that is, would take the speed for one along axes that
         are not known yet.
         """
-        if self.rest.seen or self.fixes is None or not len(self.fixes.rows):
+        if is_of_start(self.rest) or self.fixes is None or not len(self.fixes.rows):
             return self
         return replace(self, begun=replace(self, nhc=False).smoothed(start, say))
 
