@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -70,17 +70,28 @@ STEADY = (
 """Kinds of finding that look like a rest: what the sensor did, and how that was told."""
 
 
+def _in_motion_at_first(settings: Mapping[str, float]) -> str:
+    """What a log that begins in motion was begun with."""
+    if any(settings.get(f"gyro_bias0[{i}]", 0.0) for i in (1, 2, 3)):
+        return (
+            "There is no rest at the start: the gyro's bias there is that of a later rest, and the "
+            "tilt follows from what pushed it later, so that its standard deviation is wide; some "
+            "seconds of rest before the drive would tell them"
+        )
+    return (
+        "There is no rest at the start: tilt and biases were not known when the drive began, "
+        "and the standard deviations are wide for that reason; some seconds of rest before it "
+        "would tell them"
+    )
+
+
 def notes(a: Outcome) -> list[str]:
     """What should be known first: where there is nothing to update with, and what was refused."""
     out = [held(a)]
     kinds = {f.kind: f for f in a.findings}
     out += [text[0].upper() + text[1:] for text in about_contradicted(a.findings)]
     if "no_rest" in kinds:
-        out.append(
-            "There is no rest at the start: tilt and biases were not known when the drive began, "
-            "and the standard deviations are wide for that reason; some seconds of rest before it "
-            "would tell them"
-        )
+        out.append(_in_motion_at_first(a.settings))
     if "constraint" in kinds:
         lost = np.any(a.filter.scalar("status").astype(int) & UNSEEN)
         out.append(_constraint(kinds["constraint"], bool(lost)))
