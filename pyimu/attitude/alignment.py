@@ -320,12 +320,13 @@ def _yaw_std(yaw: Yaw, attitude: Rotation, tilt_std: float) -> float:
 
 
 def _levelled(force: np.ndarray | None, yaw: float) -> Rotation:
-    """The attitude at ``yaw`` rad in which ``force`` (3,) points up; level without a force.
-
-    Roll and pitch are by Groves 2013, eqs. 5.101.
-    """
-    x, y, z = (0.0, 0.0, 1.0) if force is None else force
-    q = quaternion.from_euler(
-        ca.DM(np.arctan2(y, z)), ca.DM(np.arctan2(-x, np.hypot(y, z))), ca.DM(yaw)
-    )
+    """The attitude at ``yaw`` rad in which ``force`` (3,) points up; level without a force."""
+    roll, pitch = (0.0, 0.0) if force is None else tilt_of(force)
+    q = quaternion.from_euler(ca.DM(roll), ca.DM(pitch), ca.DM(yaw))
     return Rotation.from_quat(np.array(q).ravel(), scalar_first=True)
+
+
+def tilt_of(force: np.ndarray) -> tuple[float, float]:
+    """Roll and pitch [rad] of a body whose ``force`` (3,) points up, by Groves 2013, eqs. 5.101."""
+    x, y, z = force
+    return float(np.arctan2(y, z)), float(np.arctan2(-x, np.hypot(y, z)))

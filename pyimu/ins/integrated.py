@@ -8,6 +8,7 @@ import casadi as ca
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pyimu.attitude.alignment import tilt_of
 from pyimu.errors import Finding, UserError
 from pyimu.ins.job import Job
 from pyimu.ins.strapdown import Path, strapdown, strapdown_wongwirat
@@ -59,7 +60,6 @@ def _earth(latitude: float | None) -> np.ndarray:
 
 def _level(heading0: float, force: np.ndarray | None) -> np.ndarray:
     """The attitude (4,) of a body whose accelerometer shows ``force`` (3,), level without one."""
-    x, y, z = (0.0, 0.0, 1.0) if force is None else force
-    roll, pitch = np.arctan2(y, z), np.arctan2(-x, np.hypot(y, z))
+    roll, pitch = (0.0, 0.0) if force is None else tilt_of(force)
     q = Rotation.from_euler("ZYX", [heading0, pitch, roll])
     return q.as_quat(scalar_first=True)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pyimu.attitude.alignment import tilt_of
 from pyimu.attitude.input_grid import InputGrid
 from pyimu.attitude.rest import Rest
 from pyimu.block.block import Block
@@ -22,7 +23,7 @@ from pyimu.ins.filtered import Filtered, filtered
 from pyimu.ins.lasting import Lasting, lasting, too_small
 from pyimu.ins.measured import COURSE, Fixes, measures_speed
 from pyimu.ins.smoothing import smoothed
-from pyimu.ins.stops import is_of_start
+from pyimu.ins.stops import shows_noise
 from pyimu.ins.track import Reference, Track
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
@@ -119,18 +120,20 @@ class Job:
         """What is known of velocity and gyro bias at a first sample in motion: the one is at most
         the top speed, or that of ``begun``, the other near what a rest shows later.
         """
-        if is_of_start(self.rest):
+        if shows_noise(self.rest):
             return {}
         known = {v.name: v.start for v in self.block.parameters}
         top = float(told.get("top_speed", known["top_speed"]))
         stds, least = (top, CLIMBS * top), (known["velocity_std0"], known["climb_std0"])
-        settings = {} if self.later is None else dict(self._mean_tilt)
+        settings: dict[str, float] = {}
         if self.begun is not None:
             velocity, (*plane, up) = self.begun.velocity[0], self.begun.velocity_std[0]
             settings = {f"velocity0[{i}]": float(v) for i, v in enumerate(velocity, 1)}
             stds, least = (TWICE * max(plane), TWICE * up), (LEAST_STD, LEAST_STD)
             back = Rotation.from_quat(self.begun.q[0], scalar_first=True).inv()
             settings |= _tilt(back.apply([0.0, 0.0, 1.0]))
+        elif self.later is not None:
+            settings |= self._mean_tilt
         settings["velocity_std0"], settings["climb_std0"] = map(float, map(max, stds, least))
         for i, b in enumerate(() if self.later is None else self.later.rate, 1):
             settings[f"gyro_bias0[{i}]"] = float(b)
@@ -200,7 +203,7 @@ class Job:
         vehicle's constraint, without which that is, would take the speed for one along axes that
         are not known yet.
         """
-        if is_of_start(self.rest) or self.fixes is None or not len(self.fixes.rows):
+        if shows_noise(self.rest) or self.fixes is None or not len(self.fixes.rows):
             return self
         return replace(self, begun=replace(self, nhc=False).smoothed(start, say))
 
@@ -289,8 +292,8 @@ class Job:
 
 def _tilt(up: np.ndarray) -> dict[str, float]:
     """The filter's parameters of a start in which ``up`` (3,), in body axes, is upright."""
-    roll, pitch = np.arctan2(up[1], up[2]), np.arctan2(-up[0], np.hypot(up[1], up[2]))
-    return {"tilt0": 1.0, "roll0": float(roll), "pitch0": float(pitch)}
+    roll, pitch = tilt_of(up)
+    return {"tilt0": 1.0, "roll0": roll, "pitch0": pitch}
 
 
 @dataclass(frozen=True)

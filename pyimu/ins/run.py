@@ -35,10 +35,10 @@ from pyimu.ins.stances import standing
 from pyimu.ins.stops import (
     ZUPT,
     clean_of,
-    is_of_start,
     later_rest,
     noise_at_rest,
     rest_at_start,
+    shows_noise,
     stops_of,
 )
 from pyimu.ins.track import Reference, Track, reference_of
@@ -224,7 +224,7 @@ def _job(
     samples = Samples.of(clean_of(recording, declared), zupt in SHAKEN)
     clean, turns = samples.calm, samples.findings
     rest = rest_at_start(samples.seen, declared, gravity)
-    later = None if is_of_start(rest) else later_rest(samples.seen, declared, gravity)
+    later = None if shows_noise(rest) else later_rest(samples.seen, declared, gravity)
     shown = later or rest
     part = known_part(declared, recording, shown)
     noise = noise_at_rest(samples.seen, part, shown, declared)
@@ -243,8 +243,8 @@ def _job(
     clipped = _clipped(recording, part, stds, given)
     settings = {"zupt": updates, "zaru": updates} | clipped | given
     live = zupt == "live"
-    job = Job(drawn, clean, part, rest, still, 0.0, gravity, False, live, None, settings)
-    return replace(job, later=later)
+    known = drawn, clean, part, rest, still, 0.0, gravity, False, live, None, settings
+    return Job(*known, later=later)
 
 
 def _clipped(recording: Recording, part: Part, stds: list[float | None], given: dict) -> dict:

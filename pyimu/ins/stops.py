@@ -54,7 +54,7 @@ def rest_at_start(recording: Recording, part: Part | None, gravity: float) -> Re
     return replace(rest, rate=rest.rate + null, force=force)
 
 
-def is_of_start(rest: Rest) -> bool:
+def shows_noise(rest: Rest) -> bool:
     """Whether a rest at the start shows the sensors' noise, be its force gravity or not."""
     return rest.seen or rest.other_force is not None
 
@@ -67,7 +67,7 @@ def later_rest(recording: Recording, part: Part | None, gravity: float) -> Rest 
     found = [(b - a, a) for a, b in rests(recording) if (b - a) * recording.sample_period >= LATER]
     for _, start in sorted(found, reverse=True):
         rest = rest_at_start(recording.slice(start), part, gravity)
-        if is_of_start(rest):
+        if shows_noise(rest):
             return rest
     return None
 
@@ -134,7 +134,7 @@ def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: Part |
     """What a detector needs of the sensors: the part's noise, or that of the first rest where it is
     larger. ``declared`` is the part as its maker has it.
     """
-    still = is_of_start(rest)
+    still = shows_noise(rest)
     stds, walks = [], []
     for kind, seen in (("gyro", rest.rate_std), ("accel", rest.force_std)):
         white, walk = _noise(part.sensor(kind), recording.sample_period)

@@ -75,7 +75,7 @@ def _in_motion_at_first(settings: Mapping[str, float]) -> str:
     if any(settings.get(f"gyro_bias0[{i}]", 0.0) for i in (1, 2, 3)):
         return (
             "There is no rest at the start: the gyro's bias there is that of a later rest, and the "
-            "tilt follows from what pushed it later, so that its standard deviation is wide; some "
+            "tilt follows from the forces after it, so that its standard deviation is wide; some "
             "seconds of rest before the drive would tell them"
         )
     return (
