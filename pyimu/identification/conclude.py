@@ -23,6 +23,7 @@ from pyimu.identification.found.entries import Added, Changed, Errors, LogEntry
 from pyimu.identification.found.exhibits import Exhibits, exhibits_of
 from pyimu.identification.found.made_with import MadeWith
 from pyimu.identification.logs.overview import Overview, overview
+from pyimu.identification.logs.vibration import shaken_together
 from pyimu.identification.magnetometer.examine import Examined, examined
 from pyimu.identification.magnetometer.model import magnetic, with_magnetometer
 from pyimu.identification.model.as_part import SENSORS, as_part
@@ -207,6 +208,7 @@ def _evidence(
         clocks=tuple(filter(None, clocks)),
         formulas={f.name: f.said for f in case.formulas},
         unshown=_unshown(found),
+        shaken=shaken_together(quality),
     )
 
 

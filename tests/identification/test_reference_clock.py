@@ -755,3 +755,22 @@ def test_windows_grow_until_half_of_the_rows_are_in_one():
         (0, 2 * LEAST_ROWS),
         (2 * LEAST_ROWS, 4 * LEAST_ROWS),
     ]
+
+
+def test_a_bent_response_to_steps_of_a_table_is_no_clock_that_wanders():
+    """A scale factor that bends by 0.4 % is late at each step from rate to rate by another amount,
+    up to 9 ms: as windows of it see it, a clock that wanders.
+    """
+    rates = np.radians([0, 10, -10, 30, -30, 60, -60, 100, -100, 150, -150, 200, -200, 250, -250])
+    at = np.repeat(np.arange(len(rates)), 2) * 10.0 + np.tile([0.0, 7.0], len(rates))
+    time = np.arange(0.0, at[-1], H)
+    true = np.interp(time, at, np.repeat(rates, 2))[:, None] * [0.0, 0.0, 1.0]
+    noise = NOISE * np.random.default_rng(5).standard_normal(true.shape)
+    bent = 4e-3 / np.radians(300.0)
+    gyro = true + bent * true**2 + noise
+    closed = pyimu.close(Recording.from_arrays("table", time=time, gyro=gyro, ref_rate=true))
+    assert [a.effect for a in closed.added] == ["scale_factor_nonlinearity"], closed.report()
+    assert not any(f.kind == "reference_clock" for f in closed.quality)
+    (one,) = closed.added
+    value, std = (v[2] for v in one.parameters["s2"][:2])
+    assert abs(value - bent) < 4 * std, (value, std)

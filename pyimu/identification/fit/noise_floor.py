@@ -10,7 +10,7 @@ from scipy.signal import lfilter
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.noise_fit import declared_variances
-from pyimu.identification.fit.sample_noise import rest_noise
+from pyimu.identification.fit.sample_noise import band_noise
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.laws import chi2
 
@@ -34,7 +34,7 @@ def own_noise(fitted: Fit) -> dict[int, RandomWalk]:
     """
     white, walk = declared_variances(fitted.sensor, fitted.trials[0].h)
     if not white.any():
-        white = np.mean([rest_noise(t) for t in fitted.trials], axis=0) ** 2
+        white = np.mean([band_noise(t) for t in fitted.trials], axis=0) ** 2
     return {i: RandomWalk(float(white[i]), float(walk[i])) for i in fitted.noise}
 
 

@@ -21,6 +21,10 @@ DRAWN = 512
 SHORT = 16
 """Samples of a piece between zeros."""
 
+MEANS = 2
+"""Times as many rows in each longer mean, and means in a row of a band at least: third differences
+leave the motion in it out of what these show."""
+
 THIRD = 20.0
 """Power of third differences of white noise over its own: 1 + 9 + 9 + 1."""
 
@@ -49,6 +53,39 @@ def rest_noise(trial: Trial) -> np.ndarray:
         beside = _beside_zeros(column, trial.row_segments)
         found[k] = found[k] if beside is None else beside
     return found
+
+
+def band_noise(trial: Trial) -> np.ndarray:
+    """Standard deviation (3,) of white noise of the samples that is as strong as their noise in the
+    trial's band: that of the quietest seconds, or less where means over several rows show less.
+
+    What motors shake a body with is far above the band of a derived reference, and no white noise:
+    of lines there means show nothing.
+    """
+    found = rest_noise(trial)
+    if trial.reduction is not None:
+        return found
+    least, count = found, MEANS
+    while count * MEANS <= trial.band.stride:
+        if trial.count < LEAST_MEANS * QUIET * count:
+            break
+        means, segments = _means(trial, count)
+        seen = np.sqrt(count) * quiet_noise(means, segments, count * trial.h)
+        clearly = 1.0 - SURE * np.sqrt(0.5 * CORRELATED * QUIET / len(means))
+        least = np.where(seen < clearly * found, np.minimum(seen, least), least)
+        count *= MEANS
+    return least
+
+
+def _means(trial: Trial, count: int) -> tuple[np.ndarray, list[tuple[int, int]]]:
+    """Means (m, 3) over so many rows of a trial's samples, and the segments of them."""
+    y, out, segments = trial.y, [], []
+    for a, b in trial.row_segments:
+        rows = (b - a) // count
+        start = segments[-1][1] if segments else 0
+        segments.append((start, start + rows))
+        out.append(y[a : a + rows * count].reshape(rows, count, y.shape[1]).mean(axis=1))
+    return np.concatenate(out), segments
 
 
 def _within_limits(trial: Trial) -> list[tuple[int, int]]:

@@ -4,7 +4,7 @@ hand.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -114,3 +114,17 @@ def vibrations(recording: Recording) -> Iterator[Finding]:
     if len(felt):
         rates = {"least_frequency": float(felt.min()), "largest_frequency": float(felt.max())}
         yield Finding("vibration", "gyro", len(felt), rates)
+
+
+def shaken_together(findings: Iterable[Finding]) -> str:
+    """Which vibration the gyro and the accelerometer of a log feel together, and what it does to
+    effects that join the two; nothing where they feel none.
+    """
+    felt = next((f for f in findings if f.kind == "vibration"), None)
+    if felt is None:
+        return ""
+    low, high = felt.detail["least_frequency"], felt.detail["largest_frequency"]
+    return (
+        f"gyro and accelerometer shake together at {low:.0f} to {high:.0f} Hz, which is motion "
+        "that no reference shows, and looks like such an effect"
+    )

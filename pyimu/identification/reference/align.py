@@ -5,7 +5,7 @@ What the logs' clocks say together, and the logs with their references on the se
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -14,8 +14,8 @@ import numpy as np
 from pyimu.errors import Finding
 from pyimu.identification.fit.clock import LONGEST_OWN, Clock
 from pyimu.identification.fit.fit import Fit, begin
-from pyimu.identification.fit.keys import LogClock
-from pyimu.identification.fit.maximum_likelihood import advantage, fit
+from pyimu.identification.fit.keys import LogClock, coefficients_of
+from pyimu.identification.fit.maximum_likelihood import advantage, advantage_by_one_noise, fit
 from pyimu.identification.fit.structure import prior_of, with_structure
 from pyimu.identification.fit.trial import Trial, leaves_a_lag, marked
 from pyimu.identification.reference.clock import explained_by, measure, rebanded, shifted
@@ -35,6 +35,9 @@ beyond which one that seems to change is none by chance."""
 LIKELIER = 3.5
 """Standard errors of a drift from which on a line is likelier than one lag by the 6 nat that an
 effect must explain."""
+
+BENDS = ("scale_factor_asymmetry", "scale_factor_nonlinearity", "scale_factor_cubic")
+"""What bends the response of a sensor to its own signal."""
 
 ALIKE = 0.1
 """Logs whose lags differ by less than this share of their mean have one in common."""
@@ -79,13 +82,17 @@ def _seen(clocks: Sequence[Clock | None]) -> list[Clock]:
 
 
 def _or_known(trial: Trial, clock: Clock | None, known: Clock | None) -> Clock | None:
-    """The clock of a trial, or, where that is known no better than any sensor may lag, the one that
-    is ``known`` of its log, if that leaves less.
+    """The clock of a trial, or, where that is known no better than any sensor may lag, or further
+    off than any does, the one that is ``known`` of its log, if that leaves less, or nothing else
+    tells: vibration hides the motion from a sensor until its reference is on time.
     """
-    if clock is None or known is None or clock.std < LONGEST_OWN:
+    if known is None or trial.reference == "static" or trial.reduction is not None:
+        return clock
+    if clock is not None and max(clock.std, abs(clock.mean - known.mean)) < LONGEST_OWN:
         return clock
     explained = explained_by(rebanded(placed(shifted(trial, known))))
-    return replace(known, explained=explained) if explained > clock.explained else clock
+    least = -np.inf if clock is None else clock.explained
+    return replace(known, explained=explained) if explained > least else clock
 
 
 def _clock(trial: Trial, sensor: Sensor, lines: bool, apart: bool = False) -> Clock | None:
@@ -108,14 +115,16 @@ def _level(clock: Clock | None) -> Clock | None:
 def _borne_out(
     trial: Trial, clock: Clock | None, sensor: Sensor, lines: bool, apart: bool
 ) -> Clock | None:
-    """One lag where a lag that changes by less than a sample does not explain the samples better,
-    or a line through it, as where windows show none.
+    """One lag where a lag that changes does not explain the samples better than one does beside
+    what bends the sensor's own response, or a line through it, as where windows show none.
 
+    Of steps from rate to rate a bent scale factor looks late, by as much more as they are larger.
+    By less than a sample a lag must change better than one beside a straight response, too.
     Windows weigh a bias that wanders by its size alone; all rows together know its spectrum, and
     the mean of the lags that it bends. A line about a lag that is plain is found by the fit of its
     log, if that is not held ``apart``.
     """
-    if clock is None or not clock.is_seen or np.ptp(clock.late) >= trial.h:
+    if clock is None or not clock.is_seen:
         return clock
     if clock.keeps_step:
         if abs(clock.mean) >= SIGNIFICANT * clock.std and not apart:
@@ -129,12 +138,18 @@ def _borne_out(
         in_band_of(changes, shifted(trial, steady)), clock=replace(steady, taken_out=True)
     )
     both = marked(changes.segments, len(trial.time)) & marked(keeps.segments, len(trial.time))
-    fits = [fitted_structure(replace(t, segments=runs(both)), sensor) for t in (changes, keeps)]
-    if advantage(*fits) > WANDERS:
-        return replace(clock if lines else steady, doubtful=True)
+    changes, keeps = (replace(t, segments=runs(both)) for t in (changes, keeps))
+    wanders, bent = fitted_structure(changes, sensor), fitted_structure(keeps, sensor, BENDS)
+    straight = bent
+    if advantage_by_one_noise(wanders, bent) > WANDERS:
+        if np.ptp(clock.late) >= trial.h:
+            return clock
+        straight = fitted_structure(keeps, sensor)
+        if advantage(wanders, straight) > WANDERS:
+            return replace(clock if lines else steady, doubtful=True)
     if abs(steady.mean) >= SIGNIFICANT * steady.std and not apart:
         return steady
-    return _likelier(trial, steady, fits[1], lines)
+    return _likelier(trial, steady, straight, lines)
 
 
 def _likelier(trial: Trial, steady: Clock, fitted: Fit, lines: bool) -> Clock:
@@ -156,9 +171,14 @@ def in_band_of(one: Trial, other: Trial) -> Trial:
     return replace(other, band_hz=one.band_hz)
 
 
-def fitted_structure(trial: Trial, sensor: Sensor) -> Fit:
-    """The structure of a sensor, its bias and its noise, fitted to a trial."""
+def fitted_structure(trial: Trial, sensor: Sensor, beside: Iterable[str] = ()) -> Fit:
+    """The structure of a sensor, its bias and its noise, fitted to a trial, with the effects
+    ``beside`` that this kind of sensor may have.
+    """
     sensor, structure = with_structure(sensor)
+    for name in beside:
+        sensor = sensor if name in sensor.values else sensor.with_values(name)
+        structure |= coefficients_of(sensor, name)
     return fit(begin(sensor, structure, [trial], prior_of(sensor, structure)))
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.clock import is_still
 from pyimu.identification.reference.moving import (
@@ -39,6 +40,10 @@ CUT = 0.05
 UNFIT = 0.5
 """Share of the sensor's moving power below which a reference does not belong to the sensor."""
 
+FOLLOWS, SURELY = 0.5, 5.0
+"""Share of a reference's motion that a sensor must show to follow it, and how many standard errors
+of the share that must be: vibration hides a motion that is smaller, and its band shows it."""
+
 
 def misfit(trials: Iterable[Trial]) -> str:
     """Why the reference of one of the trials does not belong to its sensor; nothing where all
@@ -58,7 +63,8 @@ def misfit(trials: Iterable[Trial]) -> str:
 
 def moves_alone(trial: Trial) -> str:
     """Which of sensor and reference moves while the other stands still; nothing where neither does
-    so. A sensor moves that goes further from its median than temperature takes any.
+    so, or the sensor follows the reference below its own noise. A sensor moves that goes further
+    from its median than temperature takes any.
     """
     if trial.reference == "static" or trial.reduction is not None or trial.clock is not None:
         return ""
@@ -68,11 +74,24 @@ def moves_alone(trial: Trial) -> str:
     still = {who: is_still(band, v) for who, v in shown.items()}
     far = {who: _farthest(trial, v) for who, v in shown.items()}
     for mover, other in (tuple(shown), tuple(shown)[::-1]):
-        if still[other] and far[mover]:
+        if still[other] and far[mover] and not _follows(band, *shown.values()):
             most = quantity(far[mover], KINDS[trial.kind].unit, 2)
             its = f"the {other} of {trial.name}"
             return f"{its} stands still while the {mover} goes {most} from its median"
     return ""
+
+
+def _follows(trial: Trial, reference: np.ndarray, sensor: np.ndarray) -> bool:
+    """Whether a sensor (n, axes) shows the motion of a reference (n, axes) in a trial's band."""
+    x, y = (in_band(trial, v - v.mean(axis=0)) for v in (reference, sensor))
+    if trial.free_rotation and len(trial.axes) == 3:
+        x = x @ turned_onto(x, y)
+    power = float(np.sum(x**2))
+    if power == 0.0:
+        return False
+    share = float(np.sum(x * y)) / power
+    error = float(np.sqrt(np.sum((y - share * x) ** 2) / (x.size * power)))
+    return share > max(FOLLOWS, SURELY * error)
 
 
 def _farthest(trial: Trial, values: np.ndarray) -> float:

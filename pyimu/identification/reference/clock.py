@@ -20,7 +20,7 @@ from pyimu.identification.fit.columns import band_time, in_band
 from pyimu.identification.fit.inputs import copied
 from pyimu.identification.fit.interpolated import interpolated
 from pyimu.identification.fit.response import through_dynamics
-from pyimu.identification.fit.sample_noise import rest_noise
+from pyimu.identification.fit.sample_noise import band_noise
 from pyimu.identification.fit.trial import MOVING, Trial, marked
 from pyimu.identification.reference.moving import (
     LEAST_ROWS,
@@ -148,7 +148,7 @@ def is_still(trial: Trial, values: np.ndarray) -> bool:
     if len(x) < LEAST_ROWS:
         return True
     gain = np.sqrt(np.sum(np.square(trial.band.weights)))
-    least = MOTION * gain * np.linalg.norm(rest_noise(trial)[list(trial.axes)])
+    least = MOTION * gain * np.linalg.norm(band_noise(trial)[list(trial.axes)])
     rounding = ROUNDING * np.linalg.norm(x, axis=1).max()
     return bool(np.linalg.norm(x.std(axis=0)) <= max(least, rounding))
 

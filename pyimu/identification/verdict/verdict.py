@@ -15,7 +15,7 @@ from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.rounded import OF_DIGITS
 from pyimu.identification.verdict.fates import NOT_LOOKED_FOR, Fate
 from pyimu.laws import chi2
-from pyimu.model.catalogue import WALK, WHITE
+from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
 from pyimu.report.numbers import joined, number
 
 FAR = 3.0
@@ -36,6 +36,9 @@ WORSE = 1.02
 
 NO_EFFECT = (AS_NOISE, AS_ROUNDING, OF_DIGITS, OF_REFERENCE)
 """Reasons to refuse an effect that say what made it look like one."""
+
+FORCE = frozenset({"specific_force", "vibration", "jerk"})
+"""What an accelerometer feels, and an effect of a gyro may follow."""
 
 VERDICTS = (
     "reference_unfit",
@@ -98,6 +101,7 @@ class Evidence:
     unshown: tuple[str, ...] = ()
     dead: tuple[str, ...] = ()
     rounded: bool = False
+    shaken: str = ""
 
 
 def verdict(e: Evidence) -> Verdict:
@@ -128,7 +132,10 @@ def _verdict(e: Evidence) -> Verdict:
     if refused:
         kind, most = max(refused, key=lambda r: r[1].gain)
         gain = f"{kind} {most.effect} explains the fitted rows ({most.gain:.0f} nat)"
-        return Verdict("not_confirmed", f"{gain}, but {most.reason}")
+        shaken = e.shaken if kind == "gyro" and _of_force(most.effect) else ""
+        return Verdict(
+            "not_confirmed", "; ".join(filter(None, [f"{gain}, but {most.reason}", shaken]))
+        )
     if e.unexplained:
         u = e.unexplained[0]
         does = f"depends on {' x '.join(u.depends_on)}"
@@ -137,6 +144,11 @@ def _verdict(e: Evidence) -> Verdict:
         why = "more random walk than declared, and nothing logged that it is seen to follow"
         return Verdict("drift", why, instead(e.changed))
     return _nothing_found(e, left)
+
+
+def _of_force(effect: str) -> bool:
+    """Whether an effect of a gyro follows what the accelerometer feels."""
+    return effect in CATALOGUE and bool(CATALOGUE[effect].signals("gyro") & FORCE)
 
 
 def instead(changed: Iterable[Changed]) -> tuple[str, ...]:
