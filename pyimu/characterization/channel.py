@@ -89,7 +89,7 @@ def fit_again(
 
     Other arguments are those of ``analyse_noise``.
     """
-    pool = _Pool(used_segments(samples.segments), samples.h, np.empty(0))
+    pool = _Pool(used_segments(samples.stretches), samples.h, np.empty(0))
     tau, deviation = noise.allan.tau, noise.allan.deviation
     m = np.rint(tau / samples.h).astype(int)
     fit = _fit(pool, m, deviation, lines, level, memory)
@@ -128,7 +128,7 @@ class _Pool:
     @classmethod
     def of(cls, samples: Samples, store: Store) -> Self:
         """The segments of a sensor that are used."""
-        used = used_segments(samples.segments)
+        used = used_segments(samples.stretches)
         return cls(used, samples.h, store.room("sums", max(b - a for a, b in used) + 1))
 
     @property
@@ -177,7 +177,7 @@ def compensate(
 ) -> tuple[np.ndarray | None, WarmUp | None]:
     """The column (n,) less the effect of temperature and warm-up, and the warm-up.
 
-    The column is None where there is neither. A warm-up is looked for in the first segment, if that
+    The column is None where there is neither. A warm-up is looked for in the first stretch, if that
     is more than half of the log; one that follows the logged temperature is an effect of
     temperature.
     """
@@ -185,7 +185,7 @@ def compensate(
     if thermal is not None and thermal.warranted:
         room = store.room("compensated", len(samples))
         column = _less(samples, samples.columns[axis], thermal.effect, room)
-    start, stop = samples.segments[0]
+    start, stop = samples.stretches[0]
     if 2 * (stop - start) <= len(samples):
         return column, None
     before = samples.columns[axis] if column is None else column

@@ -138,16 +138,18 @@ class Channel(Brief):
 class SensorResult(Brief):
     """One sensor in one log.
 
-    It has so many ``samples`` every ``h`` s, in ``segments`` without gap, the longest of
-    ``longest`` samples; deviations are made of ``segments_used`` of them. ``psd`` is one-sided, and
-    so is ``fitted`` (m, 3), the density of the fitted noise at its frequencies, nan for a channel
-    without. Lines were searched between the frequencies ``searched`` [Hz].
+    It has so many ``samples`` every ``h`` s, in ``segments`` without gap. Of the gaps ``closed``
+    are so short that what is left counts as one stretch, the longest of ``longest`` samples;
+    deviations are made of ``segments_used`` stretches. ``psd`` is one-sided, and so is ``fitted``
+    (m, 3), the density of the fitted noise at its frequencies, nan for a channel without. Lines
+    were searched between the frequencies ``searched`` [Hz].
     """
 
     kind: str
     h: float
     samples: int
     segments: int
+    closed: int
     segments_used: int
     longest: int
     psd: Psd

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -29,6 +31,11 @@ HELD = 60.0
 PIECE = 1 << 20
 """Rows of a piece."""
 
+LONGEST_CLOSED, MOST_LOST = 1.0, 0.05
+"""s, and share of the samples: gaps up to so long are closed, the shortest first, until so much is
+lost in them. A random walk is too large by half of that share then, a ramp by all of it; a bias
+that another power-on set is behind longer gaps."""
+
 
 @dataclass
 class Samples:
@@ -37,7 +44,7 @@ class Samples:
     The sample period is ``h`` s, ``segments`` are ranges (start, stop) without gap, ``missing``
     (k,) are the rows of the log that are no samples. ``averages`` over intervals are None in a log
     without temperature. ``absent`` axes, by index and with the reason, have no samples: their
-    columns are zero.
+    columns are zero. ``before`` samples of the log are left out at its beginning.
     """
 
     kind: str
@@ -48,14 +55,16 @@ class Samples:
     missing: np.ndarray
     averages: Averages | None
     absent: Mapping[int, str] = field(default_factory=dict)
+    before: int = 0
 
     def place(self, row: int) -> int:
         """Number of the sample in row ``row`` of the log."""
-        return int(row - np.searchsorted(self.missing, row))
+        return int(row - np.searchsorted(self.missing, row)) - self.before
 
     def row(self, sample: int) -> int:
         """Row of the log in which a sample is."""
         # The rows before it that are no samples are those whose own place is not beyond it.
+        sample += self.before
         return int(
             sample
             + np.searchsorted(self.missing - np.arange(len(self.missing)), sample, side="right")
@@ -63,6 +72,19 @@ class Samples:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def between(self, begin: float, end: float) -> Samples:
+        """The samples from a time to another, s."""
+        a, b = np.searchsorted(self.time, [begin, end]).tolist()
+        inside = [(max(start, a) - a, min(stop, b) - a) for start, stop in self.segments]
+        return replace(
+            self,
+            time=self.time[a:b],
+            columns=[column[a:b] for column in self.columns],
+            segments=[(start, stop) for start, stop in inside if stop > start],
+            averages=None if self.averages is None else self.averages.between(begin, end),
+            before=self.before + a,
+        )
 
     def motion(self, wrapped: Container[str] = ()) -> list[Finding]:
         """A finding ``motion`` for each column that moves, ``first_row`` being one of the log.
@@ -78,10 +100,32 @@ class Samples:
                 found.append(replace(one, column=name, detail=detail))
         return found
 
+    @cached_property
+    def stretches(self) -> list[tuple[int, int]]:
+        """Ranges (start, stop) of samples of which each follows the one before, but for the few
+        that were lost in between: what deviations are made of. A sample in ten thousand that a
+        radio loses would leave none as long as a minute.
+        """
+        closed, out = self._closed(), []
+        for segment in self.segments:
+            if out and segment[0] in closed:
+                out[-1] = (out[-1][0], segment[1])
+            else:
+                out.append(segment)
+        return out
+
+    def _closed(self) -> set[int]:
+        """First samples behind the gaps that are closed."""
+        behind = [b for (_, a), (b, _) in pairwise(self.segments) if a == b]
+        lost = np.array([self.time[b] - self.time[b - 1] - self.h for b in behind])
+        order = np.argsort(lost, kind="stable")
+        few = np.cumsum(lost[order]) <= MOST_LOST * self.h * len(self)
+        return {behind[i] for i in order[few & (lost[order] <= LONGEST_CLOSED)]}
+
     @property
     def longest(self) -> int:
-        """Samples of the longest segment."""
-        return max((b - a for a, b in self.segments), default=0)
+        """Samples of the longest stretch."""
+        return max((b - a for a, b in self.stretches), default=0)
 
 
 class Collector:

@@ -5,10 +5,13 @@ from __future__ import annotations
 import shlex
 from pathlib import Path
 
-from pyimu.inspection.outcome import Outcome
+from pyimu.inspection.outcome import Outcome, rest_share
 
 MAP, OUT = "map.toml", "out"
 """Names of files and folders that nobody has chosen yet."""
+
+MOSTLY = 0.9
+"""Share of a log that is at rest from which on it is one at rest, which a hand began and ended."""
 
 
 def next_step(found: Outcome, written: Path | None = None) -> list[str]:
@@ -57,6 +60,8 @@ def _use(found: Outcome, how: list[str]) -> str:
         return _typed("characterize", log, *how, "--out", OUT)
     if any(group.startswith("ref_") for group in groups):
         return _typed("close", log, *how, "--out", OUT)
+    if found.recording is not None and rest_share(found.recording, found.rests) >= MOSTLY:
+        return _typed("characterize", log, *how, "--out", OUT)
     whole = {"gyro", "accel"} <= set(groups)
     command = _typed("attitude" if whole else "characterize", log, *how, "--out", OUT)
     return f"{command}    # or, with a reference of its motion: pyimu close ... --reference FILE"

@@ -163,9 +163,15 @@ def _of_recording(
     if still:
         yield "at rest throughout: pyimu characterize is for such a log"
         return
-    total = sum(float(recording.time[b - 1] - recording.time[a]) for a, b in rests)
-    share = total / span if span > 0 else 0.0
+    share = rest_share(recording, rests)
     yield (
-        f"moves; {len(rests)} {'rest' if len(rests) == 1 else 'rests'} of {quantity(total, 's')} "
-        f"together, {100 * share:.0f} % of it"
+        f"moves; {len(rests)} {'rest' if len(rests) == 1 else 'rests'} of "
+        f"{quantity(share * span, 's')} together, {100 * share:.0f} % of it"
     )
+
+
+def rest_share(recording: Recording, rests: Sequence[tuple[int, int]]) -> float:
+    """Share of the time of a recording that its ``rests``, ranges of rows, take."""
+    total = sum(float(recording.time[b - 1] - recording.time[a]) for a, b in rests)
+    span = float(np.ptp(recording.time))
+    return total / span if span > 0 else 0.0

@@ -35,7 +35,7 @@ UNITS = {"gyro": "rad/s", "accel": "m/s^2", "ref_rate": "rad/s", "ref_force": "m
 
 SECONDS, SECONDS_OF_TIME = (
     ("time_constant", "period", "late", "least_late", "most_late", "late_std"),
-    ("longest", "total", "rms", "first", "origin", "until", "unit"),
+    ("longest", "total", "rms", "first", "last", "origin", "until", "unit"),
 )
 """Details of findings that are times; the latter those of the column ``time`` only."""
 

@@ -44,7 +44,8 @@ def contents(c: Outcome) -> dict[str, Any]:
     ``covariance`` of bias and matrix; ``attitudes``}.
 
     ``sensors``: {``gyro`` and ``accel``: {``sample_period`` [s], ``samples``, ``segments``,
-    ``segments_used``, ``psd``: {``frequency`` [Hz], ``density`` by channel, one-sided},
+    ``gaps_closed``, ``segments_used``, ``psd``: {``frequency`` [Hz], ``density`` by channel,
+    one-sided},
     ``lines_from`` and ``lines_to`` [Hz], between which lines were looked for, ``channels``}},
     and ``channels``: {``gyro_x`` ...: {``unit``, ``mean``, ``coefficients``, ``allan``:
     {``tau`` [s], ``deviation``, ``low``, ``high``, ``freedom``}, ``modified`` and ``hadamard``:
@@ -100,6 +101,7 @@ def _sensor(s: SensorResult) -> dict[str, Any]:
         "sample_period": s.h,
         "samples": s.samples,
         "segments": s.segments,
+        "gaps_closed": s.closed,
         "segments_used": s.segments_used,
         "psd": {
             "frequency": s.psd.frequency,

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from pyimu.characterization.outcome import LogResult, Outcome
+from pyimu.characterization.outcome import LogResult, Outcome, SensorResult
 from pyimu.errors import Finding
 from pyimu.report.findings import SENSORS, grouped
 from pyimu.report.numbers import joined, number
@@ -68,17 +68,26 @@ def _gaps(log: LogResult) -> Iterator[str]:
     """What was done with a log that has gaps, a sentence for each sensor."""
     for k, s in log.sensors.items():
         if s.segments > 1:
-            used = (
-                f"all {s.segments_used:,}"
-                if s.segments_used == s.segments
-                else f"the longest {s.segments_used:,} of {s.segments:,}"
-            )
-            yield (
-                f"{log.name}: the {SENSORS[k]} has {_breaks(log, s.segments - 1)}. "
-                "Nothing is bridged: deviations are made of "
-                f"{used} segments, up to {duration(s.longest * s.h)} each, and the spectrum of "
-                "all."
-            )
+            found = f"{log.name}: the {SENSORS[k]} has {_breaks(log, s.segments - 1)}. "
+            yield f"{found}{_closed(s)}{_used(s)}, and the spectrum of all without gap."
+
+
+def _closed(s: SensorResult) -> str:
+    """Which gaps were closed."""
+    if not s.closed:
+        return "Nothing is bridged: "
+    which = f"{s.closed:,} of them" if s.closed < s.segments - 1 else "All"
+    return f"{which} are short and few, and closed: nothing is filled in, "
+
+
+def _used(s: SensorResult) -> str:
+    """What deviations were made of."""
+    count = s.segments - s.closed
+    if count == 1:
+        return f"deviations are made of the whole, {duration(s.longest * s.h)}"
+    few = s.segments_used < count
+    used = f"the longest {s.segments_used:,} of {count:,}" if few else f"all {count:,}"
+    return f"deviations are made of {used} segments, up to {duration(s.longest * s.h)} each"
 
 
 def _breaks(log: LogResult, count: int) -> str:

@@ -40,6 +40,13 @@ class Averages:
         end, start = self.time + self.duration / 2, self.time - self.duration / 2
         return np.append(0.0, np.maximum(start[1:] - end[:-1], 0.0))
 
+    def between(self, begin: float, end: float) -> Averages:
+        """Those of which all samples lie from a time to another, s."""
+        half = self.duration / 2
+        inside = (self.time - half >= begin) & (self.time + half <= end)
+        columns = (c[inside] for c in (self.time, self.temperature, self.values, self.count))
+        return Averages(*columns, self.h)
+
 
 def interval_averages(
     time: np.ndarray, temperature: np.ndarray, values: np.ndarray, h: float, target: int = 2000

@@ -15,7 +15,7 @@ from pyimu.identification.fit.errors_in_variables import (
 )
 from pyimu.identification.fit.fit import Fit, gauss_newton, with_prior
 from pyimu.identification.fit.noise_fit import declared_variances
-from pyimu.identification.fit.normal import Noise, Normal, Unit, variances
+from pyimu.identification.fit.normal import Noise, Normal, Unit, standard_errors
 from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 
 ROUNDS = 25
@@ -56,10 +56,9 @@ def fit_and_normal(start: Fit, steps: int = 6) -> tuple[Fit, Normal]:
             break
     start.last.settle()
     normal = with_prior(equations(start), start)
-    variance = variances(normal.gram, normal.variance if normal.seen is not None else None)
     # A coefficient that was set by other means than regression keeps the standard error it came
     # with.
-    std = {**start.std, **{k: float(np.sqrt(variance[i])) for i, k in enumerate(normal.keys)}}
+    std = {**start.std, **standard_errors(normal)}
     return replace(start, log_likelihood=normal.log_likelihood - smoothing(start), std=std), normal
 
 

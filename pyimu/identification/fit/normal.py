@@ -10,7 +10,7 @@ from itertools import pairwise, product
 import numpy as np
 
 from pyimu.identification.fit.columns import Linear, Stack
-from pyimu.identification.fit.keys import Key
+from pyimu.identification.fit.keys import Key, LogBias, LogTurn
 from pyimu.identification.fit.reduction import Unit
 from pyimu.identification.fit.whiten import Autoregressive, Filter, RandomWalk
 
@@ -20,6 +20,9 @@ BATCHES = 80
 
 TOGETHER = 1 << 16
 """Numbers that are whitened at once: as many as the cache holds."""
+
+TURN = np.pi / np.sqrt(3.0)
+"""rad; standard deviation of an angle of which nothing is known."""
 
 DEAD = 1e-9
 """Share of a column's power below which what others leave of it is rounding."""
@@ -156,6 +159,22 @@ def variances(gram: np.ndarray, seen: np.ndarray | None = None) -> np.ndarray:
         shown = np.sum(inverse * (inverse @ (seen * np.outer(unit, unit))), axis=1) / scale**2
     hidden = np.sum(vectors[:, ~keep] ** 2, axis=1)
     return np.where(hidden > 1e-6, np.inf, shown)
+
+
+def standard_errors(normal: Normal) -> dict[Key, float]:
+    """Standard errors of the solution by key; those of biases are beside mountings that have any
+    turn, and no more. Of one that the logs do not show slopes alone make many, and a bias beside
+    gravity as unsure.
+    """
+    gram = normal.gram
+    seen = None if normal.seen is None else normal.variance
+    found = variances(gram, seen)
+    bound = np.diag([TURN**-2.0 * isinstance(k, LogTurn) for k in normal.keys])
+    if bound.any():
+        bounded = variances(gram + bound, None if seen is None else seen + bound)
+        biases = np.array([isinstance(k, LogBias) for k in normal.keys])
+        found = np.where(biases & np.isfinite(found), np.minimum(found, bounded), found)
+    return dict(zip(normal.keys, np.sqrt(found).tolist(), strict=True))
 
 
 def covariance(gram: np.ndarray, seen: np.ndarray | None = None) -> np.ndarray:

@@ -11,9 +11,8 @@ import numpy as np
 from pyimu.files import plain
 from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import with_prior
-from pyimu.identification.fit.keys import Coefficient, Key, LogBias, LogTurn
+from pyimu.identification.fit.keys import Coefficient, LogBias
 from pyimu.identification.fit.mixture import REACH
-from pyimu.identification.fit.normal import variances
 from pyimu.identification.found.entries import Added
 from pyimu.identification.model.unshown import OUTWEIGHED
 from pyimu.identification.noise.named import Noise
@@ -25,9 +24,6 @@ from pyimu.identification.search.screen import fitted_dispersion
 from pyimu.model.catalogue import POWER_ON, WALK, WHITE
 from pyimu.model.effect import Effect
 from pyimu.model.part import Part
-
-TURN = np.pi / np.sqrt(3.0)
-"""rad; standard deviation of an angle of which nothing is known."""
 
 
 @dataclass(frozen=True)
@@ -191,22 +187,13 @@ class _Regression:
         if kind == "accel" and all(t.reference == "static" for t in trials):
             return _hidden(value)
         std, names = np.full(3, np.nan), [t.name for t in self.fit.trials]
-        known = self._with_bounded_turns()
         for i in range(3):
             keys = [LogBias(n, i) for n in names if LogBias(n, i) in self.normal.position]
-            each = [known[k] for k in keys]
+            each = [self.fit.std.get(k, np.inf) for k in keys]
             spread = fitted_dispersion(self.normal, keys) if keys else 1.0
             total = np.sqrt(spread * np.sum(np.square(each))) / max(len(each), 1)
             std[i] = total if keys and total <= most(POWER_ON[0], kind, POWER_ON[1]) else np.nan
         return std, np.isfinite(std)
-
-    def _with_bounded_turns(self) -> dict[Key, float]:
-        """Standard errors by key where a mounting that no log shows has any turn, and no more: by
-        the slopes alone it would be many, and a bias beside gravity as unsure.
-        """
-        bound = np.diag([TURN**-2.0 * isinstance(k, LogTurn) for k in self.normal.keys])
-        found = variances(self.normal.gram + bound, self.normal.variance + bound)
-        return dict(zip(self.normal.keys, np.sqrt(found), strict=True))
 
     def _noise(self, value: np.ndarray, walks: bool) -> Errors:
         """Of white noise, or of the random walk.
