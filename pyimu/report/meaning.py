@@ -24,7 +24,7 @@ MEANING = {
     "even_turn": "what looks like a rest at the start was an even turn, or may be one",
     "filled_in": "rows on a smooth curve between others that scatter: no samples, and left out",
     "force_in_g": "gravity is 1 and should be 9.8: the numbers are in g, the header says m/s^2",
-    "gaps": "rows are missing; nothing is filled in or joined over them",
+    "gaps": "rows are missing; nothing is filled in for them",
     "gravity_at_rest": "the positions at rest, and gravity there, by which the force was judged",
     "gravity_down": "z reads gravity upside down: the body lies so; or its axes are not "
     'forward-left-up ([frame] body = "frd" in a column map); or the accelerometer has the other '
