@@ -11,6 +11,7 @@ from pyimu.identification.search.candidates import Group
 from pyimu.identification.search.choice import SET_WIDTH, Refined, Tried, ahead, refine
 from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
 from pyimu.identification.search.own_signal import is_of_reference
+from pyimu.identification.search.passing import passing
 from pyimu.identification.search.reference_line import is_line_of_reference
 from pyimu.identification.search.rounded import OF_DIGITS, within_digits
 from pyimu.identification.search.screen import fitted_gain, keys_of
@@ -36,6 +37,8 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
         return chosen, OF_REFERENCE
     if within_digits(old, chosen.fit):
         return chosen, OF_DIGITS
+    if reason := passing(chosen.fit, name):
+        return chosen, reason
     if chosen.screened.effect not in old.sensor.values:
         chosen, reason = _shown(old, chosen, gate)
         if reason:
