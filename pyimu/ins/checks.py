@@ -39,6 +39,10 @@ IMPOSSIBLE = 10.0
 """A single sample that is off by so many times what a robot of the stated top acceleration and top
 turn rate does is no measurement. Assumed."""
 
+SHOCKS, BEYOND_SHOCKS = 5, 2.0
+"""What so many places of a log show that are no single samples its motion does, as that of a foot
+that lands; a single sample must be off by so many times that. Assumed."""
+
 JUMP = 1.0
 """m; least step of a reference that is called a jump."""
 
@@ -128,15 +132,26 @@ def without_outliers(
     found, groups = [], {}
     for name, most in (("gyro", turn_rate), ("accel", acceleration)):
         values = np.where(np.isfinite(getattr(recording, name)), getattr(recording, name), np.nan)
-        off = np.abs(values - np.nanmedian(values, axis=0)) > IMPOSSIBLE * most
-        wrong = off.any(axis=1)
+        off = np.nan_to_num(np.abs(values - np.nanmedian(values, axis=0)))
+        limit = IMPOSSIBLE * most
+        wrong = (off > limit).any(axis=1)
         if wrong.any():
-            wrong = (off & spikes(values, recording.segments)).any(axis=1)
+            alone = spikes(values, recording.segments)
+            limit = max(limit, _of_shocks(np.where(alone, 0.0, off).max(axis=1), limit))
+            wrong = (alone & (off > limit)).any(axis=1)
         if wrong.any():
             first = float(recording.time[np.argmax(wrong)])
             found.append(Finding("outliers", name, int(wrong.sum()), {"first": first}))
         groups[name] = np.where(wrong[:, None], np.nan, values)
     return replace(recording, **groups), found
+
+
+def _of_shocks(off: np.ndarray, limit: float) -> float:
+    """How far off a single sample must be of a body that is ``off`` (n,) as far as ``SHOCKS`` times
+    in its motion, where that is beyond a ``limit``; 0 of any other.
+    """
+    peaks = sorted(off[a:b].max() for a, b in runs(off > limit / BEYOND_SHOCKS))
+    return BEYOND_SHOCKS * float(peaks[-SHOCKS]) if len(peaks) >= SHOCKS else 0.0
 
 
 def findings(recording: Recording, rest: Rest, gravity: float) -> list[Finding]:

@@ -63,12 +63,14 @@ MOST_TURN = 2.0
 class Noise:
     """Standard deviations (3,) of a sample at rest, ``rate`` in rad/s and ``force`` in m/s^2;
     ``walk`` (3,) rad/s/sqrt(s) by which the gyro's bias walks; ``bias`` (3,) rad/s at the start.
+    ``shown`` says that a part or a rest tells them: what a motion shows is no measure of rest.
     """
 
     rate: np.ndarray
     force: np.ndarray
     walk: np.ndarray
     bias: np.ndarray
+    shown: bool = True
 
 
 def ratio(gyro: np.ndarray, accel: np.ndarray, noise: Noise, rows: int) -> np.ndarray:
@@ -141,12 +143,15 @@ def detect(
     The mean rate of a rest must be the bias, as known from the rests before it and the walk since:
     a steady turn is none. The bias of the first is ``noise.bias``. The mean force must be that of
     the rest before, turned as the gyro says: a body that speeds up evenly does not rest. Within a
-    stretch that looks still both must stay so.
+    stretch that looks still both must stay so. Where nothing shows the noise of a rest, and by that
+    its bias, swings alone tell rests: a smooth moment of a drive is as still as the drive.
     """
     rows = max(LEAST_ROWS, round(window / period))
     passed = ratio(gyro, accel, noise, rows) <= threshold(rows, false_alarm)
-    still = ~maximum_filter1d(~passed, rows, mode="nearest")
-    still |= between_swings(passed, gyro - noise.bias, rows, period)
+    still = between_swings(passed, gyro - noise.bias, rows, period)
+    if not noise.shown:
+        return Detected(still, float(np.mean(passed)), ())
+    still |= ~maximum_filter1d(~passed, rows, mode="nearest")
     bias, at = noise.bias, float(time[0])
     variance_of_bias = noise.rate**2 / rows
     steady, before = [], None

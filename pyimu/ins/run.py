@@ -235,7 +235,9 @@ def _job(
         still = faster(marks, samples.rows, len(clean))
     rest = replace(rest, rows=slice(0, rest.rows.stop * samples.rows))
     if zupt in ("auto", "foot") and not still[rest.rows].any():
-        rest = replace(rest, seen=False)  # a steady drive, as the part's noise shows
+        # a steady drive, whose bias is that of the rests later on, by which they were found
+        later = rest if still.any() and later is None else later
+        rest = replace(rest, seen=False)
     findings += [*checks.findings(recording, rest, gravity), *turns]
     updates = float(zupt != "off")
     drawn, stds = by_axis(recording, part, untold=True)

@@ -1,23 +1,23 @@
 """Which of the stretches that look still are driven at a constant speed.
 
 No inertial sensor tells one from a rest within the stretch. What lies between two of them does:
-the force there, less that of both ends, is the change of the velocity. A stretch to which a speed
-came after a rest, and from which it went again before the next, is no rest: two changes that cancel
-are neither noise nor a fault of the sensor. Of a change that nothing takes back, the filter judges.
+the force there, less that of both ends, is the change of the velocity. Of all choices of rests and
+drives that is the one in which most rests have none left: a speed that comes up after a rest and
+goes before the next one was driven in between, and one that a log begins with, too. Where the force
+is another than that of the stretches beside it, turned as the gyro says, it is pushed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.ins.detector import FORCE_STAYS, FORCE_TURNED, STEADY_GATE, WINDOW, Noise, way_of
-from pyimu.laws import chi2
+from pyimu.ins.between import Change, change_of_velocity
+from pyimu.ins.detector import FORCE_STAYS, STEADY_GATE, WINDOW, Noise
+from pyimu.ins.short_rests import SWUNG
 from pyimu.recording.clock import runs
-from pyimu.units import STANDARD_GRAVITY
 
 LEAST_SPEED = 0.03
 """m/s; a body that settles after a stop shows less. Assumed."""
@@ -25,21 +25,35 @@ LEAST_SPEED = 0.03
 LONGEST = 60.0
 """s; of what lies between two stretches: after more nothing is known of a change of velocity."""
 
-MOST_STRETCHES = 12
+MISSING = 0.01
+"""Share of the samples between them that may be missing."""
+
+MOST_STRETCHES = 30
 """So many stretches may follow each other until the speed has gone again."""
+
+MOST_PUSHED = 6
+"""So many that follow each other may be pushed."""
 
 RETURNED = 0.5
 """Of the speeds in between: the least that must have gone where a stretch is called a rest."""
 
-NONE = float(chi2.isf(1e-3, 3))
-"""Square of a speed over its variance, up to which it is none by chance: of two changes that are
-known to their errors more than half of the first may be left, and one that is lost in its errors
-comes to light by the next."""
+UNLIKELY = float(np.log(1e-6))
+"""Log of how likely it is that a change of the velocity is off beyond its errors, and that what is
+longer than ``LONG`` is pushed. Assumed."""
+
+DRIVES_AT_FIRST = PUSHED = float(np.log(0.05))
+"""That a log whose start looks still begins with a drive, and that what is shorter is pushed.
+Assumed."""
+
+REST = float(np.log(2.0))
+"""Log of how likely a rest is beside a drive where nothing tells. Assumed."""
+
+TURNED = 0.1
+"""rad; a body that has turned by more and has the velocity that it had, has none."""
 
 APART, LONG = 2 * WINDOW, 2.0
 """s; stretches that are nearer to each other than the first are one that a window parted by chance,
-as it does in a gentle push. What is shorter than the second may then be pushed all along, as it is
-where its force is another than that of a longer one beside it: its force is not that of a rest."""
+as it does in a gentle push. A push is even for less than the second."""
 
 
 @dataclass(frozen=True)
@@ -57,46 +71,41 @@ class _Stretch:
 
 
 @dataclass(frozen=True)
-class _Change:
-    """Of the velocity between two stretches, m/s in body axes of the first: after each of the rows
-    between them (n, 3), with the ``variance`` of each axis, and the ``turn`` from the second's axes
-    to the first's.
+class _Since:
+    """What is known of the velocity at a stretch since the last rest: ``velocity`` (3,) m/s in axes
+    of that rest, its ``variance``, the ``turn`` to these axes, the log of how likely what lies in
+    between is, its ``score``, and whether the body has ``moved``.
     """
 
-    rows: slice
     velocity: np.ndarray
     variance: float
     turn: Rotation
+    score: float
+    moved: bool = False
 
-    @property
-    def moves(self) -> bool:
-        """Whether the velocity is another at the end."""
-        return _is_speed(self.velocity[-1], self.variance)
+    def then(self, change: Change, drift: float, pushed: float) -> _Since:
+        """After a change, with a ``drift`` m/s during the stretch before it."""
+        moves = change.most**2 > LEAST_SPEED**2 + (STEADY_GATE + 3) * change.variance
+        return _Since(
+            self.velocity + self.turn.apply(change.velocity),
+            self.variance + drift**2 + change.variance,
+            self.turn * change.turn,
+            self.score + pushed + min(max((3 - change.apart) / 2, UNLIKELY), 0.0),
+            self.moved or bool(moves) or change.turn.magnitude() > TURNED,
+        )
 
-
-@dataclass(frozen=True)
-class _Leg:
-    """A change, and the ``velocity`` (3,) m/s and ``variance`` with which it begins, in axes to
-    which ``turn`` brings its own.
-    """
-
-    change: _Change
-    velocity: np.ndarray
-    variance: float
-    turn: Rotation
-
-    def at(self, row: int) -> tuple[np.ndarray, float]:
-        """Velocity (3,) and variance after a row."""
-        own = self.change.velocity[row - self.change.rows.start]
-        return self.velocity + self.turn.apply(own), self.variance + self.change.variance
-
-    def moves(self, row: int) -> bool:
-        return _is_speed(*self.at(row))
-
-
-def _is_speed(velocity: np.ndarray, variance: float) -> bool:
-    """Whether a velocity (3,) of that variance of each axis is none of a body at rest."""
-    return bool(velocity @ velocity > LEAST_SPEED**2 + (STEADY_GATE + 3) * variance)
+    def rests(self, top: float) -> float:
+        """Log of how likely a rest is, with that velocity left, beside a drive of up to ``top``
+        m/s. Where the body has not moved it rests or drives as it did before.
+        """
+        if not self.moved:
+            return self.score
+        variance = self.variance + (LEAST_SPEED / 3) ** 2
+        of_size = 1.5 * float(np.log(top**2 / (2 * np.pi * variance)))
+        if of_size <= 0:
+            return self.score
+        off = float(self.velocity @ self.velocity) / variance
+        return self.score + max(of_size - off / 2, UNLIKELY)
 
 
 def driven(
@@ -109,90 +118,65 @@ def driven(
 ) -> list[tuple[int, int]]:
     """The stretches (start, stop) of ``still`` (n,) that are driven at a constant speed.
 
-    The first is a rest. ``gyro`` rad/s and ``accel`` m/s^2 are (n, 3), ``period`` is in s.
+    ``gyro`` rad/s and ``accel`` m/s^2 are (n, 3), ``period`` is in s.
     """
-    every = [
+    stretches = [
         _Stretch(a, b, gyro[a:b].mean(axis=0), accel[a:b].mean(axis=0)) for a, b in runs(still)
     ]
-    inside = [
-        _is_inside(k, every, period)
-        or any(_differs(gyro, every[k], other, noise, period) for other in _beside(k, every))
-        for k in range(len(every))
-    ]
-    stretches = [s for s, within in zip(every, inside, strict=True) if not within]
-    short = [s for s, within in zip(every, inside, strict=True) if within]
-
-    def change(k: int) -> _Change:
-        return _change(time, gyro, accel, (stretches[k], stretches[k + 1]), noise, period)
-
-    out, at = [], 0
-    while at < len(stretches) - 1:
-        after, legs = _next_rest(stretches, at, change, period)
-        out += [(s.start, s.stop) for s in stretches[at + 1 : after]]
-        for leg in legs:
-            rows = leg.change.rows
-            own = [s for s in short if rows.start <= s.start and s.stop <= rows.stop]
-            out += [(s.start, s.stop) for s in own if leg.moves((s.start + s.stop) // 2)]
-        at = after
-    return sorted(out)
+    changes = {
+        (i, k): found
+        for i in range(len(stretches))
+        for k in range(i + 1, min(i + 1 + MOST_PUSHED, len(stretches)))
+        if (found := _change(time, gyro, accel, (stretches[i], stretches[k]), noise, period))
+    }
+    rests = _rests_of(stretches, changes, period) if stretches else set()
+    return [(s.start, s.stop) for k, s in enumerate(stretches) if k not in rests]
 
 
-def _beside(k: int, every: list[_Stretch]) -> list[_Stretch]:
-    """The stretches before and after the one of that number."""
-    return every[max(k - 1, 0) : k] + every[k + 1 : k + 2]
-
-
-def _is_inside(k: int, every: list[_Stretch], period: float) -> bool:
-    """Whether a stretch is short and so near to another that the two are one."""
-    own = every[k]
-    gaps = [max(s.start - own.stop, own.start - s.stop) for s in _beside(k, every)]
-    return own.rows * period < LONG and min(gaps, default=np.inf) * period < APART
-
-
-def _differs(gyro: np.ndarray, own: _Stretch, other: _Stretch, noise: Noise, period: float) -> bool:
-    """Whether a short stretch beside a long one has another force: it is pushed."""
-    if own.rows * period >= LONG or other.rows * period < LONG:
-        return False
-    between = slice(min(own.stop, other.stop), max(own.start, other.start))
-    way = way_of(gyro[between] - other.rate, max(1, round(WINDOW / period)), period)
-    white = float(np.mean(noise.force**2)) * (1 / own.rows + 1 / other.rows)
-    off = float(np.sum((own.force - other.force) ** 2))
-    return off > (STEADY_GATE + 3) * (FORCE_STAYS**2 + white + (FORCE_TURNED * way) ** 2)
-
-
-def _next_rest(
-    stretches: list[_Stretch], at: int, change: Callable[[int], _Change], period: float
-) -> tuple[int, list[_Leg]]:
-    """Which stretch is the next rest after that ``at``, one behind the last where none is, and the
-    legs until then. A speed that may be one by chance is one where the next change takes it back.
+def _rests_of(
+    stretches: list[_Stretch], changes: dict[tuple[int, int], Change], period: float
+) -> set[int]:
+    """Which stretches are rests in the likeliest of all choices, by dynamic programming over the
+    rests.
     """
-    velocity, variance, turn = np.zeros(3), 0.0, Rotation.identity()
-    speeds, legs, last = [], [], len(stretches) - 1
-    moves = perhaps = False
-    for k in range(at, min(at + MOST_STRETCHES, last)):
-        if k > at:
-            variance += (FORCE_STAYS * stretches[k].rows * period) ** 2
-        leg = _Leg(change(k), velocity, variance, turn)
-        if not np.isfinite(leg.change.variance):
-            break
-        legs.append(leg)
-        end = leg.change.rows.stop - 1
-        (velocity, variance), turn = leg.at(end), turn * leg.change.turn
-        speed = float(np.linalg.norm(velocity))
-        back = moves and leg.change.moves and speed**2 <= NONE * variance
-        moves = leg.moves(end)
-        if k == at and not moves:
-            perhaps = at + 1 < last and speed**2 > LEAST_SPEED**2 + NONE * variance
-            if not perhaps:
-                break
-        elif not moves and (speed < RETURNED * min(speeds) or back):
-            return k + 1, legs
-        elif perhaps:
-            break
-        if moves and at + 1 == last:
-            return last + 1, legs
-        speeds.append(speed)
-    return at + 1, legs[:1]
+    speeds = [float(np.linalg.norm(c.velocity)) for c in changes.values()]
+    top = max(speeds, default=LEAST_SPEED)
+    best = [(DRIVES_AT_FIRST * (k > 0), -1) for k in range(len(stretches))]
+    ends = []
+    for at in range(len(stretches)):
+        since = _since(at, stretches, changes, period)
+        last = max(since)
+        ends.append(best[at][0] + since[last].score)
+        for k in range(at + 1, len(stretches)):
+            score = UNLIKELY if k <= last else since[last].score
+            score = max(score, since[k].rests(top)) if k in since else score
+            best[k] = max(best[k], (best[at][0] + score + REST, at))
+    at = int(np.argmax(ends))
+    found = set()
+    while at >= 0:
+        found.add(at)
+        at = best[at][1]
+    return found
+
+
+def _since(
+    at: int, stretches: list[_Stretch], changes: dict[tuple[int, int], Change], period: float
+) -> dict[int, _Since]:
+    """What is known of the velocity at each stretch after the rest ``at``, as long as something is,
+    by the likeliest choice of what is pushed in between. ``LEAST_SPEED`` and ``FORCE_STAYS`` are
+    limits, and count as three standard deviations.
+    """
+    found = {at: _Since(np.zeros(3), 0.0, Rotation.identity(), 0.0)}
+    for k in range(at + 1, min(at + MOST_STRETCHES, len(stretches))):
+        ways, pushed = [], 0.0
+        for i in range(k - 1, max(at, k - MOST_PUSHED) - 1, -1):
+            if i in found and (i, k) in changes:
+                drift = FORCE_STAYS / 3 * stretches[i].rows * period if i > at else 0.0
+                ways.append(found[i].then(changes[i, k], drift, pushed))
+            pushed += UNLIKELY if stretches[i].rows * period > LONG else PUSHED
+        if ways:
+            found[k] = max(ways, key=lambda way: way.score)
+    return found
 
 
 def _change(
@@ -202,39 +186,16 @@ def _change(
     ends: tuple[_Stretch, _Stretch],
     noise: Noise,
     period: float,
-) -> _Change:
-    """The change of the velocity between two stretches.
-
-    Gravity there goes from what the first shows to what the second does, evenly: what the gyro's
-    errors tip is known at both ends, and its noise leaves g^2 N^2 T^3 / 12 of the integral. Of what
-    the accelerometer's errors do in between, half counts for that reason.
+) -> Change | None:
+    """The change of the velocity between two stretches; None where nothing is known of it: samples
+    are missing, or the body swings, beside which its sensors' gains and limits are no small errors.
     """
-    first, second = ends
-    rows = slice(first.stop, second.start)
-    seconds = float(time[second.start] - time[first.stop - 1])
-    n = rows.stop - rows.start
-    if not seconds < min(LONGEST, 2 * (n + 1) * period):
-        return _Change(rows, np.zeros((n, 3)), np.inf, Rotation.identity())
-    rates = gyro[rows] - (first.rate + second.rate) / 2
-    way = way_of(rates, max(1, round(WINDOW / period)), period)
-    if not np.isfinite(way) or not np.isfinite(accel[rows]).all():
-        return _Change(rows, np.zeros((n, 3)), np.inf, Rotation.identity())
-    turns = _turns(rates * period)
-    share = ((np.arange(n) + 0.5) / n)[:, None]
-    weight = (1 - share) * first.force + share * turns[-1].apply(second.force)
-    velocity = np.cumsum(turns.apply(accel[rows]) - weight, axis=0) * period
-    white = float(np.mean(noise.force**2))
-    tipped = STANDARD_GRAVITY**2 * float(np.mean(noise.rate**2)) * period * seconds**3 / 12
-    unknown = (FORCE_STAYS**2 + (FORCE_TURNED * way) ** 2) * (seconds / 2) ** 2
-    of_ends = white * seconds**2 * (1 / first.rows + 1 / second.rows) / 3
-    variance = white * period * seconds + of_ends + tipped + unknown
-    return _Change(rows, velocity, variance, turns[-1])
-
-
-def _turns(steps: np.ndarray) -> Rotation:
-    """The turns (n,) up to each of the rotation vectors (n, 3) rad that follow each other."""
-    turns, by = Rotation.from_rotvec(steps), 1
-    while by < len(turns):
-        turns = Rotation.concatenate([turns[:by], turns[:-by] * turns[by:]])
-        by *= 2
-    return turns
+    rows = slice(ends[0].stop, ends[1].start)
+    seconds = float(time[rows.stop] - time[rows.start - 1])
+    whole = (rows.stop - rows.start + 1) * period
+    known = np.isfinite(gyro[rows]).all() and np.isfinite(accel[rows]).all()
+    if not known or not seconds < min(LONGEST, (1 + MISSING) * whole + period / 2):
+        return None
+    if np.linalg.norm(gyro[rows] - ends[0].rate, axis=1).max() > SWUNG:
+        return None
+    return change_of_velocity(gyro[rows], accel[rows], ends, noise, period)

@@ -144,7 +144,9 @@ def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: Part |
         shown = np.minimum(seen, most) if still else np.zeros(3)
         stds.append(np.maximum(np.maximum(white, shown), 1e-9))
         walks.append(walk)
-    return Noise(stds[0], stds[1], walks[0], rest.rate if still else np.zeros(3))
+    bias = rest.rate if still else np.zeros(3)
+    shown = still or declared is not None or bool(rests(recording))
+    return Noise(stds[0], stds[1], walks[0], bias, shown)
 
 
 def _noise(sensor: Sensor, period: float) -> tuple[np.ndarray, np.ndarray]:

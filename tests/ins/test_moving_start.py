@@ -72,4 +72,21 @@ def test_a_rest_later_tells_the_noise_of_a_log_that_begins_in_motion():
         excerpt(4, stands=False), position_std=STD, settings={"top_speed": 20.0}, method="filter"
     )
     assert "tilt and biases were not known" in never.report()
+    assert "noise of the log's own start" in never.report()
     assert never.settings["gyro_bias0[1]"] == 0.0 and never.settings["gyro_bias_std0[1]"] == 0.1
+
+
+def test_a_log_without_any_rest_that_shows_the_noise_has_none():
+    """A vehicle that rides smoothly for moments: what its noisy motion shows is none of a rest, and
+    a bias that nobody knows tells no turn from none. Those moments are at 5 to 10 m/s."""
+    log = excerpt(6, stands=False)
+    rng = np.random.default_rng(6)
+    shaken = np.where(log.time % 10 < 9, 1.0, 0.0)[:, None]
+    log = replace(
+        log,
+        gyro=log.gyro - BIAS + 0.01 * shaken * rng.standard_normal(log.gyro.shape),
+        accel=log.accel + 0.3 * shaken * rng.standard_normal(log.accel.shape),
+    )
+    found = run(log, position_std=STD, settings={"top_speed": 20.0}, method="filter")
+    assert not found.still.any()
+    assert "There is no rest in this log" in found.report()

@@ -13,6 +13,7 @@ from walks import Walk, walk
 
 from pyimu import Recording, ins
 from pyimu.errors import UserError
+from pyimu.ins.checks import without_outliers
 from pyimu.ins.detector import Noise, detect
 from pyimu.ins.measured import CONTRADICTED, Fixes, check_fixes
 from pyimu.ins.short_rests import LEAST, between_swings
@@ -50,6 +51,20 @@ def test_the_path_of_a_foot_holds_by_default():
     off = found.tracks["filter"].position[-1] - own.place[-1]
     way = np.linalg.norm(np.diff(own.place[::20], axis=0), axis=1).sum()
     assert way > 40 and np.linalg.norm(off) < 0.05 * way
+
+
+def test_landings_are_no_outliers_and_what_is_far_beyond_them_is():
+    """At 100 Hz a landing of some 9 g is one sample or two. A sample left out of each is a step of
+    the velocity."""
+    own = walk(0, hz=100.0, strike=1.0)
+    log = Recording.from_arrays(time=own.time, gyro=own.rate, accel=own.force)
+    kept, said = without_outliers(log, acceleration=5.0, turn_rate=2.0)
+    assert not said
+    np.testing.assert_array_equal(kept.accel, own.force)
+    force = own.force.copy()
+    force[400] = 1e4
+    kept, (one,) = without_outliers(replace(log, accel=force), acceleration=5.0, turn_rate=2.0)
+    assert one.count == 1 and np.isnan(kept.accel[400]).all()
 
 
 ROLL = 0.3

@@ -1,8 +1,12 @@
 """A constant speed is told from a rest by what comes before it and after it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from scipy.stats import chi2
 
+from pyimu.ins.between import change_of_velocity
 from pyimu.ins.detector import Noise, detect
 from pyimu.ins.speeds import driven
 from pyimu.recording.clock import runs
@@ -123,3 +127,57 @@ def test_missing_samples_between_two_stretches_tell_nothing():
     accel[1230:1232] = np.nan
     stretches, moves = found(time, gyro, accel)
     assert len(stretches) == 3 and not moves
+
+
+SPEED, ANGLE = 0.5, 1.5
+"""m/s and rad; of a vehicle that drives on through a turn."""
+
+
+def turning(null=(0.3, -0.4, 0.0), gain=0.01):
+    """A vehicle without vibration: it speeds up, turns at its speed, and stops; by an accelerometer
+    with a ``null`` m/s^2 and a gyro whose axis z is in x by ``gain``. Times, rates, forces, and
+    marks of what looks still.
+    """
+    time = H * np.arange(2600)
+    rate = ANGLE / 2 * raised((time - 10) / 4)
+    push = SPEED * (raised((time - 5) / 1) - raised((time - 20) / 1)) / 0.5
+    speed = np.cumsum(push) * H
+    force = np.stack([push, speed * rate, np.full(len(time), 9.80665)], axis=1) + null
+    gyro = NOISE.bias + np.stack([gain * rate, 0 * rate, rate], axis=1)
+    moves = (5, 6), (10, 14), (20, 21)
+    still = ~np.any([(time > a - H) & (time < b + H) for a, b in moves], axis=0)
+    return time, gyro, force, still
+
+
+def test_a_speed_that_goes_on_through_a_turn_is_no_rest():
+    """An accelerometer's null of 50 mg turns with the body, and hid 2 m/s of what a turn shows. The
+    two ends of the turn tell it."""
+    time, gyro, accel, still = turning()
+    assert driven(time, gyro, accel, still, NOISE, H) == runs(still)[1:3]
+
+
+def test_the_change_in_a_turn_is_known_beside_null_and_misalignment():
+    """Its size and its variance: by a tenth of the speed that the turn turns, which with the null
+    of the whole turn would be 1 m/s."""
+    time, gyro, accel, still = turning()
+    first, second = (
+        SimpleNamespace(rate=gyro[a:b].mean(axis=0), force=accel[a:b].mean(axis=0), rows=b - a)
+        for a, b in runs(still)[1:3]
+    )
+    rows = slice(*(f(runs(still)[i]) for i, f in ((1, max), (2, min))))
+    found = change_of_velocity(gyro[rows], accel[rows], (first, second), NOISE, H)
+    truth = SPEED * np.array([np.cos(ANGLE) - 1, np.sin(ANGLE), 0])
+    off = found.velocity - truth
+    assert off @ off < chi2.isf(1e-4, 3) * found.variance
+    assert found.variance < 0.1**2
+
+
+def test_what_is_pushed_for_a_moment_is_no_rest():
+    """The even middle of a long push, as still as a rest: its force is none of the rests'."""
+    time = H * np.arange(2000)
+    push = 0.5 * (((time > 5) & (time < 9)).astype(float) - ((time > 12) & (time < 16)))
+    accel = np.stack([push, 0 * push, 9.80665 + 0 * push], axis=1)
+    gyro = np.tile(NOISE.bias, (len(time), 1))
+    middles = [(0, 4.9), (6.5, 7.5), (9.1, 11.9), (13.5, 14.5), (16.1, 20)]
+    still = np.any([(time >= a) & (time < b) for a, b in middles], axis=0)
+    assert driven(time, gyro, accel, still, NOISE, H) == runs(still)[1:4]

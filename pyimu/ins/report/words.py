@@ -45,7 +45,8 @@ OBSERVABLE = (
 
 
 def about(a: Outcome) -> str:
-    part = f"part {a.part}" if a.part else "noise of the log's own rest"
+    moves = any(f.kind == "no_rest" for f in a.findings) and not _of_later_rest(a.settings)
+    part = f"part {a.part}" if a.part else f"noise of the log's own {'start' if moves else 'rest'}"
     more = f", {a.gains} scale factors and misalignments estimated" if a.gains else ""
     constraint = ", vehicle's constraint" if a.nhc else ""
     constraint += f"; heading at the start by {a.heading_from}" if a.heading_from else ""
@@ -70,9 +71,14 @@ STEADY = (
 """Kinds of finding that look like a rest: what the sensor did, and how that was told."""
 
 
+def _of_later_rest(settings: Mapping[str, float]) -> bool:
+    """Whether the bias with which a log in motion was begun is that of a rest later on."""
+    return any(settings.get(f"gyro_bias0[{i}]", 0.0) for i in (1, 2, 3))
+
+
 def _in_motion_at_first(settings: Mapping[str, float]) -> str:
     """What a log that begins in motion was begun with."""
-    if any(settings.get(f"gyro_bias0[{i}]", 0.0) for i in (1, 2, 3)):
+    if _of_later_rest(settings):
         return (
             "There is no rest at the start: the gyro's bias there is that of a later rest, and the "
             "tilt follows from the forces after it, so that its standard deviation is wide; some "

@@ -1,0 +1,151 @@
+"""By how much the velocity of a body changes between two moments at which nothing pushes it.
+
+With T the turn from a sample's axes to those of the first moment, w its rate, f its force, c
+gravity's reaction and b the accelerometer's bias, in axes of the first moment,
+
+    f_1 = c + b,    T f = a + c + T b,    T_2 f_2 = c + T_2 b,
+
+so that the velocity gains the sum of T f - f_1 - (T - 1) b. What the second moment shows beside the
+first tells b as far as the body has turned, and how the gyro's errors have tipped gravity: gains M
+turn it by phi = sum of T M w, and noise by what grows evenly, of which a bridge is left. With these
+as Gaussian errors x of the priors below, T_2 f_2 - f_1 = B x + e and the velocity is off by A x: it
+is corrected by what the first tells of x (Bishop 2006, eqs. 2.81 and 2.82).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pyimu.ins.detector import FORCE_KEPT, FORCE_STAYS, Noise
+from pyimu.units import STANDARD_GRAVITY
+
+BIAS = 0.5
+"""m/s^2; standard deviation of the null of an accelerometer that nobody calibrated (50 mg)."""
+
+GAIN = 0.02
+"""That of a scale factor and a misalignment of a gyro, and of an accelerometer, likewise."""
+
+
+class Moment(Protocol):
+    """The mean ``rate`` and ``force`` (3,) of so many ``rows`` at which nothing pushes."""
+
+    @property
+    def rate(self) -> np.ndarray: ...
+
+    @property
+    def force(self) -> np.ndarray: ...
+
+    @property
+    def rows(self) -> int: ...
+
+
+@dataclass(frozen=True)
+class Change:
+    """What the ``velocity`` (3,) m/s has gained, in axes of the first moment, its ``variance`` in
+    the direction in which that is largest, the ``turn`` from the axes of the second, and the square
+    over its variance by which the forces of the two are ``apart``, that is chi-square distributed
+    with 3 degrees of freedom where nothing pushes at either. ``most`` m/s is the largest gain in
+    between.
+    """
+
+    velocity: np.ndarray
+    variance: float
+    turn: Rotation
+    apart: float
+    most: float
+
+
+def change_of_velocity(
+    gyro: np.ndarray, accel: np.ndarray, ends: tuple[Moment, Moment], noise: Noise, period: float
+) -> Change:
+    """The change between two moments, of which ``gyro`` rad/s and ``accel`` m/s^2 (n, 3) lie in
+    between, one sample a ``period`` s.
+    """
+    first, second = ends
+    of_ends = float(np.mean(noise.force**2)) * (1 / first.rows + 1 / second.rows)
+    noise, n = _shaken(gyro, accel, noise), len(gyro)
+    share = np.arange(1, n + 1) / n
+    rates = gyro - (first.rate + second.rate) / 2
+    turns = _turns(rates * period)
+    force = turns.apply(accel)
+    velocity = np.cumsum(force - first.force, axis=0) * period
+    of_gains = np.cumsum(_times(turns.as_matrix(), rates), axis=0) * period
+    even = share[:, None, None] * np.eye(3)
+    spin = turns.as_matrix() - np.eye(3)
+    shown = turns[-1].apply(second.force)
+    by = np.concatenate(
+        [
+            -np.cumsum(spin, axis=0) * period,
+            *(-np.cumsum(_skew(force) @ p, axis=0) * period for p in (of_gains, even)),
+            -np.cumsum(even, axis=0) * period,
+        ],
+        axis=2,
+    )
+    told = np.hstack([spin[-1], _skew(shown) @ of_gains[-1], _skew(shown), np.eye(3)])
+    prior = _prior(noise, 1 / first.rows + 1 / second.rows, period, n)
+    own = told * prior @ told.T + of_ends * np.eye(3)
+    gain = np.linalg.solve(own, told * prior).T
+    known = np.diag(prior) - gain @ own @ gain.T
+    off = shown - first.force
+    velocity = velocity + by @ gain @ off
+    spread = float(np.linalg.eigvalsh(by[-1] @ known @ by[-1].T).max())
+    spread += _left(noise, of_ends, velocity, rates, period)
+    apart = float(off @ np.linalg.solve(own + FORCE_KEPT**2 * np.eye(3), off))
+    most = float(np.linalg.norm(velocity, axis=1).max())
+    return Change(velocity[-1], spread, turns[-1], apart, most)
+
+
+def _shaken(gyro: np.ndarray, accel: np.ndarray, noise: Noise) -> Noise:
+    """The noise with what shakes a body on its way, and what lies between two samples of it."""
+    steps = (np.sqrt(np.mean(np.diff(v, axis=0) ** 2 / 2, axis=0)) for v in (gyro, accel))
+    rate, force = steps if len(gyro) > 1 else (noise.rate, noise.force)
+    return replace(noise, rate=np.maximum(noise.rate, rate), force=np.maximum(noise.force, force))
+
+
+def _prior(noise: Noise, ends: float, period: float, n: int) -> np.ndarray:
+    """Variances (18,) of the bias, the gyro's gains, what its noise and its bias, of the means at
+    the ``ends``, turn in all, and the change of the accelerometer's error.
+    """
+    seconds = n * period
+    turned = noise.rate**2 * (period * seconds + ends * seconds**2 / 4)
+    turned = turned + noise.walk**2 * seconds**3 / 3
+    sizes = [np.full(3, BIAS**2), np.full(9, GAIN**2), turned, np.full(3, FORCE_STAYS**2)]
+    return np.concatenate(sizes)
+
+
+def _left(
+    noise: Noise, of_ends: float, velocity: np.ndarray, rates: np.ndarray, period: float
+) -> float:
+    """Variance per axis of what both ends do not tell: white noise, the bridge of what noise has
+    tipped, the means at the ends, errors of the accelerometer that come and go, and its gains where
+    the body has turned, which a push and its end do not cancel.
+    """
+    white, seconds = float(np.mean(noise.force**2)), len(rates) * period
+    tipped = STANDARD_GRAVITY**2 * float(np.mean(noise.rate**2)) * period * seconds**3 / 12
+    stays = (FORCE_STAYS * seconds / 2) ** 2
+    way = min(float(np.sum(np.linalg.norm(rates, axis=1))) * period, 1.0)
+    by_gains = (GAIN * way * float(np.linalg.norm(velocity, axis=1).max())) ** 2
+    return white * period * seconds + tipped + of_ends * seconds**2 / 3 + stays + by_gains
+
+
+def _times(turns: np.ndarray, rates: np.ndarray) -> np.ndarray:
+    """What each entry of M, row by row, makes of T M w: (n, 3, 9)."""
+    return np.einsum("nij,nk->nijk", turns, rates).reshape(len(turns), 3, 9)
+
+
+def _skew(v: np.ndarray) -> np.ndarray:
+    """The matrices (..., 3, 3) of the cross products v x."""
+    return -np.cross(v[..., None, :], np.eye(3))
+
+
+def _turns(steps: np.ndarray) -> Rotation:
+    """The turns (n,) up to each of the rotation vectors (n, 3) rad that follow each other."""
+    turns, by = Rotation.from_rotvec(steps), 1
+    while by < len(turns):
+        turns = Rotation.concatenate([turns[:by], turns[:-by] * turns[by:]])
+        by *= 2
+    return turns
