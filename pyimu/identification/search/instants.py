@@ -32,12 +32,14 @@ TRIED = 25
 
 def at_instants(fitted: Fit, effect: str) -> Fit:
     """Put each event of an effect where the residual is least, and fit the rest again; an event
-    that never happens stands at its start value.
+    that never happens, or that no axis has a size of, stands at its start value.
     """
     e, name = CATALOGUE[effect], form_of(CATALOGUE[effect])
     if not e.has_events:
         return fitted
     times, std = np.array(fitted.sensor.values[effect][name]), {}
+    sized = {k.index[-1] for k in fitted.free if isinstance(k, Coefficient) and k.effect == effect}
+    times[[k for k in range(len(times)) if k not in sized]] = UNUSED
     events = np.flatnonzero(times < UNUSED)
     reach = 1.2 * max(BLOCK, np.ptp(np.append(times[events], 0.0)) / 1200)
     for k in map(int, events):
