@@ -156,3 +156,15 @@ def test_no_sensor_is_blamed_by_a_filter_s_attitude():
     assert closed.verdict == "reference_unfit" and not closed.added, closed.report()
     assert "drawn towards the accelerometer's force by 0.30 rad/s" in closed.reason
     assert not any("fits if" in remark for remark in closed.remarks)
+
+
+def test_a_motion_far_above_the_noise_is_not_the_gyros_own_noise():
+    """A hand that never rests and a gyro that hardly has any: in the quietest samples there is
+    motion, and beyond the band both show its end.
+    """
+    time, rate, true = hand(4, rests=False)
+    rng = np.random.default_rng(5)
+    gyro = rate + 1e-9 * rng.standard_normal(rate.shape)
+    seen = true * Rotation.from_rotvec(1e-10 * rng.standard_normal(rate.shape))
+    log = Recording.from_arrays("hand", time=time, gyro=gyro, ref_q=seen.as_quat(scalar_first=True))
+    assert not is_of_itself(gyro_trial(log))

@@ -1,5 +1,7 @@
 """Standard errors of slow coefficients beside a random walk that nobody declared."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from loop_cases import STATE_NAMES, inputs, noise, trial
@@ -8,7 +10,8 @@ from scipy.stats import binom, norm
 from pyimu.identification.fit import walk
 from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.keys import coefficients_of
-from pyimu.identification.fit.maximum_likelihood import fit
+from pyimu.identification.fit.maximum_likelihood import _likelihood as likelihood
+from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.walk import widening, with_unknown_walk
 from pyimu.identification.search.by_chance import Chance
 from pyimu.identification.search.choice import Tried
@@ -109,3 +112,31 @@ def test_a_ramp_is_charged_for_what_it_gains_beside_a_walk_that_is_not_known():
     declared = without_ramp(7, 2e-7, declared=1e-6)
     columns = declared.linearise(["rate_ramp"])
     assert Chance(declared, declared.linearise(), PENALTY).toll(columns, "rate_ramp") < 0.5
+
+
+def test_a_walk_that_an_effect_took_for_its_own_is_judged_with_one():
+    """Beside a derived reference the noise is an autoregression, and its walk no more than about
+    likely: that of the larger model, which has none left, is the likelier one beside a walk.
+    """
+    time = H * np.arange(4000)
+    u = inputs(np.random.default_rng(5), time)
+    u[:, COLUMNS["time"]] = time[:, None]
+    y = u[:, :3] + noise(np.random.default_rng(8), time, R, 1e-7)
+    log = trial(time, y, u, known=STATE_NAMES | {"time"}, band_hz=1.0)
+    sensor = Sensor("gyro").with_values("rate_ramp")
+    smaller = fit(begin(Sensor("gyro"), frozenset(), [log]))
+    larger = with_walk(fit(begin(sensor, coefficients_of(sensor, "rate_ramp"), [log])), 0.0)
+    most = max(with_walk(replace(smaller, noise=larger.noise), k2).log_likelihood for k2 in SIZES)
+    far_off = with_walk(smaller, 1e-5)
+    assert larger.log_likelihood - most < larger.log_likelihood - far_off.log_likelihood - 10.0
+    # Sizes half as large each are off by a factor of 1.4 at most, of a curvature of some 5.
+    assert advantage(larger, far_off) == pytest.approx(larger.log_likelihood - most, abs=1.0)
+
+
+SIZES = 1e-5 * 2.0 ** -np.arange(16)
+
+
+def with_walk(model, k2: float):
+    """The model beside its noise with another walk, and how likely it is."""
+    noises = {i: replace(n, k2=k2) for i, n in model.noise.items()}
+    return replace(model, noise=noises, log_likelihood=likelihood(replace(model, noise=noises)))

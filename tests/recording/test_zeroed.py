@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
+from turns import turned
 
 import pyimu
 from pyimu.errors import Finding
@@ -72,6 +74,22 @@ def test_close_names_the_zone_and_a_gyro_without_noise_at_rest_stops_nothing():
     closed = pyimu.close(log)
     assert "hard_dead_zone" in [a.effect for a in closed.added], closed.report()
     (found,) = [a for a in closed.added if a.effect == "hard_dead_zone"]
+    np.testing.assert_allclose(found.parameters["d"][0], ZONE, rtol=0.05)
+    assert not any("set to zero" in remark for remark in closed.remarks)
+
+
+@pytest.mark.parametrize("white", [1e-5, 3e-4])
+def test_zeros_tell_a_hard_dead_zone_beside_an_attitude(white):
+    """Sample by sample an attitude with noise does not show the rate, but the zeros lie where the
+    samples are small: they need no reference, and count for nothing in what is compared.
+    """
+    rate, rng = motion(), np.random.default_rng(6)
+    true = turned(Rotation.from_rotvec(0.5 * (rate[1:] + rate[:-1]) / 100.0))
+    q = true * Rotation.from_rotvec(white * rng.standard_normal(rate.shape))
+    q = q.as_quat(scalar_first=True)
+    closed = pyimu.close(Recording.from_arrays("log", time=TIME, gyro=measured(rate), ref_q=q))
+    (found,) = closed.added
+    assert found.effect == "hard_dead_zone", closed.report()
     np.testing.assert_allclose(found.parameters["d"][0], ZONE, rtol=0.05)
     assert not any("set to zero" in remark for remark in closed.remarks)
 

@@ -22,6 +22,9 @@ ROUNDS = 25
 """Fits of noise and coefficients in turn at most; an effect that was taken for a walk comes out of
 it by a factor of about three a round."""
 
+WALKS_TRIED = 8
+"""Sizes of a walk beside another model's noise, each half the variance of the one before."""
+
 CIRCLE = 3
 """Rounds that change the noise by no less than the round before does, from which on the rounds are
 not thought to stand still some day; so many places a circle has at most."""
@@ -127,7 +130,8 @@ def advantage(larger: Fit, smaller: Fit) -> float:
     one fitted to what it explains would take most of it for drift. Elsewhere the smaller is judged
     by its own noise or that of the larger, by which it is the likelier: rounds of noise and
     coefficients may end where another noise is likelier, above all beside a reference whose noise
-    is taken out, and what the larger gains by that is none of its coefficients'.
+    is taken out, and what the larger gains by that is none of its coefficients'. An autoregression
+    of the larger's may have no walk left, which the smaller may have beside it, too.
     """
     own = larger.log_likelihood - smaller.log_likelihood
     declared = wander_is_declared(larger)
@@ -135,7 +139,28 @@ def advantage(larger: Fit, smaller: Fit) -> float:
         return own
     other = _least_squares(replace(smaller, noise=larger.noise), 2)
     by_one = larger.log_likelihood - _likelihood(other)
-    return by_one if declared else min(own, by_one)
+    if declared:
+        return by_one
+    return min(own, by_one, larger.log_likelihood - _beside_its_walk(smaller, larger.noise))
+
+
+def _beside_its_walk(fitted: Fit, noise: Noise) -> float:
+    """The largest log-likelihood [nat] of a model beside autoregressions of another with as much
+    walk as the model's own noise has, or less.
+    """
+    walks = {
+        i: fitted.noise[i].k2
+        for i, n in noise.items()
+        if isinstance(n, Autoregressive) and fitted.noise[i].k2 > n.k2
+    }
+    best = -np.inf
+    for k in range(WALKS_TRIED if walks else 0):
+        more = {i: replace(noise[i], k2=max(noise[i].k2, k2 / 2.0**k)) for i, k2 in walks.items()}
+        found = _likelihood(_least_squares(replace(fitted, noise={**noise, **more}), 2))
+        if found <= best:
+            break
+        best = found
+    return best
 
 
 def advantage_by_one_noise(one: Fit, other: Fit) -> float:

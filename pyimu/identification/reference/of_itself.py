@@ -40,7 +40,8 @@ cameras and trackers up to 0.23."""
 
 WHITE = 2.0
 """Times the white noise of the gyro's samples that both signals have in the windows at most, or
-something moves in them, or the reference has noise of its own.
+something moves in them, or the reference has noise of its own. The gyro has at least a part of it
+that is as many times smaller, or what was taken for noise is a motion that ends below.
 """
 
 BETWEEN = 0.8, 1.6
@@ -160,6 +161,7 @@ def is_of_itself(trial: Trial) -> bool:
     powers = [np.mean(np.abs(v) ** 2, axis=0) for v in (y, x)]
     product = np.abs(np.mean(y.conj() * x, axis=0)) ** 2
     coherence = np.mean(product / np.maximum(powers[0] * powers[1], 1e-300), axis=0)
-    white = WHITE * rest_noise(trial)[axes] ** 2 * (window @ window)
-    small = all(np.all(p.mean(axis=0) < white) for p in powers)
-    return bool(np.all(coherence > IN_COMMON) and small)
+    white = rest_noise(trial)[axes] ** 2 * (window @ window)
+    small = all(np.all(p.mean(axis=0) < WHITE * white) for p in powers)
+    is_noise = np.all(powers[0].mean(axis=0) > white / WHITE)
+    return bool(np.all(coherence > IN_COMMON) and small and is_noise)

@@ -14,7 +14,7 @@ import numpy as np
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient
-from pyimu.identification.fit.limited import with_limited
+from pyimu.identification.fit.limited import THRESHOLD, with_limited
 from pyimu.identification.fit.maximum_likelihood import advantage, fit
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.candidates import equivalent, scanned
@@ -26,7 +26,7 @@ from pyimu.identification.search.ceiling import (
     read_to,
 )
 from pyimu.identification.search.screen import FALSE_ALARM, PENALTY, SHARE
-from pyimu.identification.search.threshold import THRESHOLD, zeros
+from pyimu.identification.search.threshold import zeroed, zeros
 from pyimu.model.catalogue import CATALOGUE, read_off
 
 LOOKS = 6
@@ -92,11 +92,15 @@ class Read:
 def threshold_of(fitted: Fit, held: Sequence[Trial]) -> Read | None:
     """The input below which the output is zero, None where the samples show none.
 
-    Hard or soft say the zeros, and regression, which sees whether larger inputs lose by it.
+    Hard or soft say the zeros, and regression, which sees whether larger inputs lose by it. Where
+    rows are made of many samples by a band, the zeros alone say what they do of a hard one.
     """
-    hard = _looked_for(fitted, THRESHOLD)
-    if hard is None or not has_samples([*fitted.trials, *held]):
+    hard, every = _looked_for(fitted, THRESHOLD), [*fitted.trials, *held]
+    if hard is None or fitted.is_reduced:
         return None
+    if not has_samples(every):
+        alone = {i: zeroed(every, i) for i in fitted.trials[0].axes}
+        return _read(hard, {i: z for i, z in alone.items() if z is not None})
     seen = {i: zeros(fitted, held, i) for i in fitted.trials[0].axes}
     found = {i: z for i, z in seen.items() if z is not None}
     of_hard = _read(hard, {i: z.hard for i, z in found.items()})

@@ -13,13 +13,13 @@ from scipy.special import ndtr
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient, Key
+from pyimu.identification.fit.limited import THRESHOLD, as_sampled
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.score import compared, sides
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import Trial, marked
 from pyimu.model.sensor import Sensor
 from pyimu.recording.quality.resolution import resolution
-
-THRESHOLD = "threshold"
+from pyimu.recording.quality.zeroed import zone
 
 LIKELY = 7.35
 """Rise of the sum of squares, in variances, that bounds the 95 % interval of a threshold: Hansen,
@@ -163,6 +163,18 @@ def zeros(fitted: Fit, held: Iterable[Trial], axis: int) -> Zeros | None:
         count,
         float(chance.of(least).sum()),
     )
+
+
+def zeroed(trials: Iterable[Trial], axis: int) -> Threshold | None:
+    """What the zeros of an axis say of a hard dead zone without any input beside them, which a
+    derived reference does not show sample by sample; None where nothing is set to zero.
+
+    A soft dead zone leaves outputs of any size, rounded ones lie a step apart, and lost ones leave
+    no gap about zero.
+    """
+    y = np.concatenate([as_sampled(t)[marked(t.segments, len(t.y)), axis] for t in trials])
+    found = zone(y)
+    return None if found is None else (*_least_output(y), found[1])
 
 
 @dataclass(frozen=True)

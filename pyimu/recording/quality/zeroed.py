@@ -24,7 +24,14 @@ FALSE_ALARMS = 1e-3
 
 
 def least_size(values: np.ndarray) -> float | None:
-    """The size below which samples (n,), or vectors (n, 3), are set to zero; None where none is.
+    """The size below which samples (n,), or vectors (n, 3), are set to zero; None where none is."""
+    found = zone(values)
+    return None if found is None else found[0]
+
+
+def zone(values: np.ndarray) -> tuple[float, float] | None:
+    """The size below which samples (n,), or vectors (n, 3), are set to zero, and the log-likelihood
+    [nat] by which they speak for that; None where none is.
 
     Where nothing is set to zero, of the samples up to twice a size a half is above it, of vectors
     seven eighths: their density is even about zero. That all of them are, and that zeros are there,
@@ -38,9 +45,10 @@ def least_size(values: np.ndarray) -> float | None:
     least = float(above.min())
     near = above[above < 2 * least]
     share = 0.5 if values.ndim == 1 else 7 / 8
-    if share ** (len(near) - 1) > FALSE_ALARMS or len(np.unique(near)) < DISTINCT:
+    gain = -(len(near) - 1) * float(np.log(share))
+    if np.exp(-gain) > FALSE_ALARMS or len(np.unique(near)) < DISTINCT:
         return None
-    return least
+    return least, gain
 
 
 def zeroed_findings(name: str, values: np.ndarray) -> Iterator[Finding]:
