@@ -9,7 +9,7 @@ import pyimu
 from pyimu.errors import Finding
 from pyimu.identification.verdict.ranges import set_to_zero
 from pyimu.recording.quality.inspect import inspect
-from pyimu.recording.quality.zeroed import FALSE_ALARMS, least_size
+from pyimu.recording.quality.zeroed import FALSE_ALARMS, ZEROS, least_size
 from pyimu.recording.recording import Recording
 
 ZONE, WHITE = np.radians(1.0), np.radians(0.05)
@@ -99,3 +99,13 @@ def test_a_zone_that_no_effect_was_named_for_is_said():
     (said,) = set_to_zero(found, [("accel", "hard_dead_zone")])
     assert said.startswith("the gyro's samples below 1.00 deg/s are set to zero")
     assert not set_to_zero(found, [("gyro", "hard_dead_zone")])
+
+
+def test_noise_of_a_few_steps_whose_zeros_are_chance_has_no_zone():
+    """A gyro of steps of 0.0076 deg/s and noise of five: one in two thousand samples is zero on all
+    axes, and the digits of the file make many sizes of the next larger ones.
+    """
+    rng = np.random.default_rng(6)
+    steps = np.round(5.0 * rng.standard_normal((200_000, 3)))
+    values = np.radians(np.round(steps / 131.0, 6))
+    assert np.count_nonzero(~steps.any(axis=1)) >= ZEROS and least_size(values) is None

@@ -16,8 +16,9 @@ ZEROS = 20
 """Zeros of a column at least."""
 
 DISTINCT = 4
-"""Values between the least size and twice it, at least: the zone is as many steps wide. Of samples
-as coarse as the zone the least size is the step."""
+"""Values between the least size and twice it, to a hundredth, at least: the zone is as many steps
+wide. Of samples as coarse as the zone the least size is the step, and vectors of such steps have
+sizes of 1, 1.41 and 1.73 of it, whatever the digits of a file make of them."""
 
 FALSE_ALARMS = 1e-3
 """Probability of finding a zone where there is none."""
@@ -46,7 +47,8 @@ def zone(values: np.ndarray) -> tuple[float, float] | None:
     near = above[above < 2 * least]
     share = 0.5 if values.ndim == 1 else 7 / 8
     gain = -(len(near) - 1) * float(np.log(share))
-    if np.exp(-gain) > FALSE_ALARMS or len(np.unique(near)) < DISTINCT:
+    distinct = np.unique(np.round(near / least, 2))
+    if np.exp(-gain) > FALSE_ALARMS or np.count_nonzero(distinct < 2) < DISTINCT:
         return None
     return least, gain
 
