@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
+from numba import njit
 from scipy.spatial.transform import Rotation
 
 from pyimu.ins.detector import FORCE_KEPT, FORCE_STAYS, Noise
@@ -46,15 +47,16 @@ class Moment(Protocol):
 @dataclass(frozen=True)
 class Change:
     """What the ``velocity`` (3,) m/s has gained, in axes of the first moment, its ``variance`` in
-    the direction in which that is largest, the ``turn`` from the axes of the second, and the square
-    over its variance by which the forces of the two are ``apart``, that is chi-square distributed
-    with 3 degrees of freedom where nothing pushes at either. ``most`` m/s is the largest gain in
-    between.
+    the direction in which that is largest, the matrix ``turn`` (3, 3) from the axes of the second
+    and its ``angle`` rad, and the square over its variance by which the forces of the two are
+    ``apart``, that is chi-square distributed with 3 degrees of freedom where nothing pushes at
+    either. ``most`` m/s is the largest gain in between.
     """
 
     velocity: np.ndarray
     variance: float
-    turn: Rotation
+    turn: np.ndarray
+    angle: float
     apart: float
     most: float
 
@@ -70,13 +72,13 @@ def change_of_velocity(
     noise, n = _shaken(gyro, accel, noise), len(gyro)
     share = np.arange(1, n + 1) / n
     rates = gyro - (first.rate + second.rate) / 2
-    turns = _turns(rates * period)
-    force = turns.apply(accel)
+    turns = _products(Rotation.from_rotvec(rates * period).as_matrix())
+    force = np.einsum("nij,nj->ni", turns, accel)
     velocity = np.cumsum(force - first.force, axis=0) * period
-    of_gains = np.cumsum(_times(turns.as_matrix(), rates), axis=0) * period
+    of_gains = np.cumsum(_times(turns, rates), axis=0) * period
     even = share[:, None, None] * np.eye(3)
-    spin = turns.as_matrix() - np.eye(3)
-    shown = turns[-1].apply(second.force)
+    spin = turns - np.eye(3)
+    shown = turns[-1] @ second.force
     by = np.concatenate(
         [
             -np.cumsum(spin, axis=0) * period,
@@ -96,7 +98,8 @@ def change_of_velocity(
     spread += _left(noise, of_ends, velocity, rates, period)
     apart = float(off @ np.linalg.solve(own + FORCE_KEPT**2 * np.eye(3), off))
     most = float(np.linalg.norm(velocity, axis=1).max())
-    return Change(velocity[-1], spread, turns[-1], apart, most)
+    angle = float(Rotation.from_matrix(turns[-1]).magnitude())
+    return Change(velocity[-1], spread, turns[-1], angle, apart, most)
 
 
 def _shaken(gyro: np.ndarray, accel: np.ndarray, noise: Noise) -> Noise:
@@ -142,10 +145,14 @@ def _skew(v: np.ndarray) -> np.ndarray:
     return -np.cross(v[..., None, :], np.eye(3))
 
 
-def _turns(steps: np.ndarray) -> Rotation:
-    """The turns (n,) up to each of the rotation vectors (n, 3) rad that follow each other."""
-    turns, by = Rotation.from_rotvec(steps), 1
-    while by < len(turns):
-        turns = Rotation.concatenate([turns[:by], turns[:-by] * turns[by:]])
-        by *= 2
-    return turns
+@njit(cache=True)
+def _products(steps: np.ndarray) -> np.ndarray:
+    """The products (n, 3, 3) of matrices (n, 3, 3) that follow each other, up to each."""
+    out = np.empty_like(steps)
+    out[0] = steps[0]
+    for k in range(1, len(steps)):
+        for i in range(3):
+            for j in range(3):
+                a, b = out[k - 1], steps[k]
+                out[k, i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
+    return out

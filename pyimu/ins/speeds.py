@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from pyimu.ins.between import Change, change_of_velocity
 from pyimu.ins.detector import FORCE_STAYS, STEADY_GATE, WINDOW, Noise
@@ -73,13 +72,13 @@ class _Stretch:
 @dataclass(frozen=True)
 class _Since:
     """What is known of the velocity at a stretch since the last rest: ``velocity`` (3,) m/s in axes
-    of that rest, its ``variance``, the ``turn`` to these axes, the log of how likely what lies in
-    between is, its ``score``, and whether the body has ``moved``.
+    of that rest, its ``variance``, the matrix ``turn`` (3, 3) to these axes, the log of how likely
+    what lies in between is, its ``score``, and whether the body has ``moved``.
     """
 
     velocity: np.ndarray
     variance: float
-    turn: Rotation
+    turn: np.ndarray
     score: float
     moved: bool = False
 
@@ -87,11 +86,11 @@ class _Since:
         """After a change, with a ``drift`` m/s during the stretch before it."""
         moves = change.most**2 > LEAST_SPEED**2 + (STEADY_GATE + 3) * change.variance
         return _Since(
-            self.velocity + self.turn.apply(change.velocity),
+            self.velocity + self.turn @ change.velocity,
             self.variance + drift**2 + change.variance,
-            self.turn * change.turn,
+            self.turn @ change.turn,
             self.score + pushed + min(max((3 - change.apart) / 2, UNLIKELY), 0.0),
-            self.moved or bool(moves) or change.turn.magnitude() > TURNED,
+            self.moved or bool(moves) or change.angle > TURNED,
         )
 
     def rests(self, top: float) -> float:
@@ -142,14 +141,17 @@ def _rests_of(
     speeds = [float(np.linalg.norm(c.velocity)) for c in changes.values()]
     top = max(speeds, default=LEAST_SPEED)
     best = [(DRIVES_AT_FIRST * (k > 0), -1) for k in range(len(stretches))]
-    ends = []
+    # Behind the last stretch that a rest tells of, it says the same of all.
+    ends, behind = [], [(-np.inf, -1)] * (len(stretches) + 1)
     for at in range(len(stretches)):
+        behind[at] = max(behind[at], behind[at - 1]) if at else behind[at]
+        best[at] = max(best[at], behind[at])
         since = _since(at, stretches, changes, period)
         last = max(since)
         ends.append(best[at][0] + since[last].score)
-        for k in range(at + 1, len(stretches)):
-            score = UNLIKELY if k <= last else since[last].score
-            score = max(score, since[k].rests(top)) if k in since else score
+        behind[last + 1] = max(behind[last + 1], (ends[at] + REST, at))
+        for k in range(at + 1, last + 1):
+            score = max(UNLIKELY, since[k].rests(top)) if k in since else UNLIKELY
             best[k] = max(best[k], (best[at][0] + score + REST, at))
     at = int(np.argmax(ends))
     found = set()
@@ -166,7 +168,7 @@ def _since(
     by the likeliest choice of what is pushed in between. ``LEAST_SPEED`` and ``FORCE_STAYS`` are
     limits, and count as three standard deviations.
     """
-    found = {at: _Since(np.zeros(3), 0.0, Rotation.identity(), 0.0)}
+    found = {at: _Since(np.zeros(3), 0.0, np.eye(3), 0.0)}
     for k in range(at + 1, min(at + MOST_STRETCHES, len(stretches))):
         ways, pushed = [], 0.0
         for i in range(k - 1, max(at, k - MOST_PUSHED) - 1, -1):
