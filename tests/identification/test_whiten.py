@@ -277,3 +277,15 @@ def test_a_step_is_as_sure_beside_differentiated_noise_as_it_is():
     alone = Autoregressive.fit([(v, np.arange(float(n)), [(0, n)])])
     assert error(alone) > 3 * error(true)
     assert_white(found.whiten(v[:, None], np.arange(float(n)), [(0, n)])[32:, 0])
+
+
+def test_an_autoregression_of_a_few_rows_settles():
+    """By least squares a wave that grows is predicted by a filter that grows; what means over its
+    rows have was infinite, and the search ended in an error of linear algebra.
+    """
+    k = np.arange(60)
+    values = 1.03**k * np.cos(1.8 * k) + 0.01 * np.random.default_rng(1).standard_normal(60)
+    found = Autoregressive.fit([(values, k.astype(float), [(0, 60)])], order=2)
+    poles = np.roots([1.0, *(-c for c in found.coefficients)])
+    assert np.abs(poles).max() < 1.0 and np.isfinite(found.in_means(50).r)
+    assert abs(np.angle(poles[0])) == pytest.approx(1.8, abs=0.01)

@@ -30,6 +30,9 @@ AR_ORDER = 32
 SETTLED = 1024
 """Rows after which an autoregression has forgotten what it began with."""
 
+SETTLES = 1.0 - 1e-6
+"""Largest size of a pole: beyond it a filter settles in no log."""
+
 CHUNK = 65536
 """Rows that are put side by side with their predecessors at once."""
 
@@ -433,11 +436,23 @@ class Autoregressive:
         whole = sum(_lagged_products(v, order) for v in pieces)
         gram, right, power = whole[1:, 1:], whole[1:, 0], whole[0, 0]
         least = 1e-12 * np.trace(gram) + LEAST_VARIANCE
-        coefficients = np.linalg.solve(gram + least * np.eye(order), right)
+        coefficients = _settling(np.linalg.solve(gram + least * np.eye(order), right))
         left = power - 2 * coefficients @ right + coefficients @ gram @ coefficients
         rows = sum(len(v) - order for v in pieces)
         r = max(float(left) / rows, LEAST_VARIANCE)
         return cls(tuple(coefficients), r, theta=theta)
+
+
+def _settling(coefficients: np.ndarray) -> np.ndarray:
+    """Coefficients (k,) of the same spectrum's shape whose filter settles: of a few rows least
+    squares find some that grow. Poles outside the unit circle go to where they are mirrored.
+    """
+    poles = np.roots(np.concatenate([[1.0], -coefficients]))
+    outside = np.abs(poles) > SETTLES
+    if not outside.any():
+        return coefficients
+    poles[outside] = SETTLES**2 / poles[outside].conj()
+    return -np.poly(poles).real[1:]
 
 
 def _lagged_products(values: np.ndarray, order: int) -> np.ndarray:
