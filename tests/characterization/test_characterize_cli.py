@@ -294,7 +294,7 @@ def test_too_few_samples(pyimu, tmp_path, rows):
 def test_gaps_are_used_around_and_said(pyimu, tmp_path):
     clock = H * np.arange(ROWS)
     clock[1000:] += 5
-    clock[2500:] += 1
+    clock[2500:] += 1.5
     code, out, _ = pyimu("characterize", write(tmp_path, time=clock, gyro=gyro()), "--out", "out")
     assert code == 0 and "2 gaps. Nothing is bridged" in out and "all 3 segments" in out
     gaps = findings(tmp_path / "out")["gaps", "time"]

@@ -87,3 +87,10 @@ def test_samples_that_were_lost_one_by_one_leave_deviations_as_long_as_the_log()
 def test_lost_samples_are_closed_up_to_a_twentieth_of_the_log():
     found = pyimu.characterize(lossy(rest(5), 4000)).logs[0].sensors["gyro"]
     assert found.closed <= 0.05 * found.samples and found.segments - found.closed > 500
+
+
+@pytest.mark.parametrize(
+    "count, said", [(1, "1 gap. It is short, and closed"), (3, "3 gaps. All are short")]
+)
+def test_gaps_that_were_closed_are_said(count, said):
+    assert said in pyimu.characterize(lossy(rest(6), count)).report()

@@ -76,8 +76,10 @@ def _closed(s: SensorResult) -> str:
     """Which gaps were closed."""
     if not s.closed:
         return "Nothing is bridged: "
-    which = f"{s.closed:,} of them" if s.closed < s.segments - 1 else "All"
-    return f"{which} are short and few, and closed: nothing is filled in, "
+    some = s.closed < s.segments - 1
+    which = f"{s.closed:,} of them" if some else "It" if s.closed == 1 else "All"
+    verb = "is" if s.closed == 1 else "are"
+    return f"{which} {verb} short, and closed up: nothing is filled in, "
 
 
 def _used(s: SensorResult) -> str:
