@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 
-from pyimu.characterization.samples import Samples
+from pyimu.characterization.samples import PIECE, Samples
 from pyimu.errors import Finding
 from pyimu.model.part import AXES
+from pyimu.recording.quality.in_pieces import Inspector
+from pyimu.recording.recording import Recording
 from pyimu.recording.rest import SECOND, seconds_of
 
 MOST = 0.1
@@ -41,6 +44,25 @@ def without_ends(
     if any(s.motion(ignored) for s in rest.values()):
         return dict(sensors), []
     return rest, [Finding("handled", "time", round(sum(lost)), {"first": lost[0], "last": lost[1]})]
+
+
+def of_what_is_left(
+    findings: Iterable[Finding], sensors: Mapping[str, Samples]
+) -> Iterator[Finding]:
+    """The findings of a log, its spikes being those of the samples that are left: in quick motion
+    there may be others, which are in no noise.
+    """
+    yield from (f for f in findings if f.kind != "spikes")
+    for kind, samples in sensors.items():
+        inspector = Inspector()
+        for a in range(0, len(samples), PIECE):
+            values = np.column_stack([column[a : a + PIECE] for column in samples.columns])
+            time = samples.time[a : a + PIECE]
+            inspector.add(Recording.from_arrays("left", time=time, **{kind: values}))
+        for f in inspector.findings():
+            if f.kind == "spikes":
+                row = samples.row(f.detail["first_row"])
+                yield replace(f, detail={**f.detail, "first_row": row})
 
 
 def _moving(samples: Samples, ignored: Container[str]) -> Iterator[np.ndarray]:

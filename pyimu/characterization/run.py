@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from pyimu.characterization.allan.moments import TERMS
 from pyimu.characterization.evidence import evidence
-from pyimu.characterization.handled import without_ends
+from pyimu.characterization.handled import of_what_is_left, without_ends
 from pyimu.characterization.log_samples import Say, read_samples
 from pyimu.characterization.noise.coefficients import Coefficient, mean_coefficient
 from pyimu.characterization.outcome import LogResult, SensorResult, Summary
@@ -91,7 +91,9 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
         wrapped = {f.column for f in read.findings if f.kind == "wrapped"}
         moving = [f for s in read.sensors.values() for f in s.motion(wrapped)]
         sensors, handled = without_ends(read.sensors, wrapped) if moving else (read.sensors, [])
-        moving = [] if handled else moving
+        known, moving = read.findings, [] if handled else moving
+        if handled:
+            known = tuple(of_what_is_left(known, sensors))
         # Raw counts in a false unit look like motion.
         moves = bool(moving) and not any(f.kind == "counts" for f in read.findings)
         # What moves has no rest that a shock could stand out of.
@@ -102,7 +104,7 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
         }
         if not any(c.noise for r in results.values() for c in r.channels):
             raise UserError(_nothing(name, results))
-        findings = (*read.findings, *handled, *moving, *shocks)
+        findings = (*known, *handled, *moving, *shocks)
         shown = evidence(findings, read.sensors)
         findings = (*findings, *_warm_ups(results.values()))
         field = _magnetometer(source, moving, say)

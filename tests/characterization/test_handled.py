@@ -29,7 +29,7 @@ def handled(log, first, last):
     """The log with a hand's motion in its first and last seconds."""
     t = log.time - log.time[0]
     moves = (t < first) | (t > t[-1] - last)
-    swing = np.sin(2 * np.pi * 0.7 * t)[:, None] * moves[:, None]
+    swing = np.sin(2 * np.pi * 0.7 * t + 1.0)[:, None] * moves[:, None]
     return replace(log, gyro=log.gyro + swing, accel=log.accel + 3.0 * swing)
 
 
@@ -49,6 +49,16 @@ def test_a_hand_that_begins_and_ends_a_log_is_left_out(first, last):
     for one, other in zip(c.logs[0].channels, alone.logs[0].channels, strict=True):
         assert one.coefficient("N").value == pytest.approx(other.coefficient("N").value, rel=1e-6)
         assert one.mean == pytest.approx(other.mean, abs=1e-9)
+
+
+def test_spikes_of_the_hand_are_in_no_noise_but_those_of_the_rest_are():
+    log = handled(rest(7), 12.0, 0.0)
+    log.gyro[500, 0] += 40.0
+    quiet = pyimu.characterize(log)
+    assert "the spikes are in N" not in quiet.report()
+    log.gyro[30_000, 1] += 40.0
+    (found,) = [f for f in pyimu.characterize(log).logs[0].findings if f.kind == "spikes"]
+    assert (found.column, found.count, found.detail["first_row"]) == ("gyro_y", 1, 30_000)
 
 
 @pytest.mark.parametrize("first, last, middle", [(70.0, 0.0, False), (5.0, 5.0, True)])
