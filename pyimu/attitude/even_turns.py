@@ -66,18 +66,22 @@ def with_later_rests(rest: Rest, recording: Recording) -> Rest:
     if not rest.seen or rest.sways or rest.force is None or any(v is not None for v in told):
         return rest
     up, noise = rest.force / np.linalg.norm(rest.force), np.mean(rest.rate_density**2)
-    looked_at = recording.slice(None, _level_until(recording, up))
+    stop = _level_until(recording, up)
+    if stop * recording.sample_period < LEAST:
+        return rest
+    looked_at = recording.slice(None, stop)
     return replace(rest, even=even_turn(looked_at, up, float(noise)))
 
 
 def _level_until(recording: Recording, up: np.ndarray) -> int:
-    """The row before which each second's mean force points to ``up`` (3,)."""
+    """The row before which each second's mean force, where it has one, points to ``up`` (3,)."""
     stop = int(np.searchsorted(recording.time, recording.time[0] + LOOKED_AT))
     second = max(round(1 / recording.sample_period), 1)
     count = stop // second
-    means = recording.accel[: count * second].reshape(count, second, 3).mean(axis=1)
+    rows = recording.accel[: count * second].reshape(count, second, 3)
+    means = np.ma.masked_invalid(rows).mean(axis=1).filled(np.nan)
     across = np.linalg.norm(np.cross(means, up), axis=1)
-    moved = np.flatnonzero(~(across <= SAME_UP * (means @ up)))
+    moved = np.flatnonzero(across > SAME_UP * (means @ up))
     return int(moved[0]) * second if len(moved) else stop
 
 

@@ -1,5 +1,7 @@
 """A body that turns evenly from the first sample on, as on a turntable, or rests there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from attitude_cases import GRAVITY, H
@@ -62,6 +64,17 @@ def test_of_two_levels_that_come_equally_often_either_may_be_the_rest():
     assert found.heading_std[-1] > 0.9 * even.std * log.time[-1]
     assert found.tilt_std[-1] < 0.02
     assert [f.kind for f in found.findings if f.kind == "even_turn"]
+
+
+def test_a_log_that_begins_without_forces_or_swings_in_its_first_second_is_taken_as_it_is():
+    """Either had no level second: nothing was looked at, and the run ended in an error."""
+    log = turned(TURN, 0.0, -TURN / 2, 0.0)
+    accel = log.accel.copy()
+    accel[: round(0.4 / H)] = np.nan
+    late = Recording.from_arrays(time=log.time, gyro=log.gyro, accel=accel)
+    assert of_log(late).turn == pytest.approx(TURN, abs=2e-4)
+    leaning = replace(find_rest(log), force=GRAVITY * np.array([0.5, 0.0, 0.866]))
+    assert with_later_rests(leaning, log) == leaning
 
 
 def test_a_turntable_that_turns_from_the_start_is_known_by_its_stops():

@@ -9,6 +9,7 @@ from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.most_white import most_white
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.sample_noise import band_noise
 from pyimu.identification.fit.whiten import RandomWalk
@@ -30,11 +31,13 @@ DRAWN = 512
 def own_noise(fitted: Fit) -> dict[int, RandomWalk]:
     """The sensor's own noise at the sample rate.
 
-    As declared, else its white part as its quiet rows show it.
+    As declared, else its white part as its quiet rows show it, and no more of that than what is
+    left of the reference.
     """
     white, walk = declared_variances(fitted.sensor, fitted.trials[0].h)
     if not white.any():
         white = np.mean([band_noise(t) for t in fitted.trials], axis=0) ** 2
+        white = np.minimum(white, most_white(fitted) / fitted.trials[0].h)
     return {i: RandomWalk(float(white[i]), float(walk[i])) for i in fitted.noise}
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.most_white import most_white
 from pyimu.identification.fit.sample_noise import rest_density
 from pyimu.identification.logs.vibration import less_lines
 from pyimu.identification.model.as_part import unexamined_left_out
@@ -62,9 +63,9 @@ def _finished(start: Part, fit: Fit) -> Sensor:
         walk = np.array([figures.get(i, none).K for i in range(3)])
     else:
         # A differentiated reference hides the sensor's own noise; its quiet rows show the white
-        # part only.
+        # part only, and of a body without rests as much as is left beside the reference.
         rest = np.mean([rest_density(less_lines(t)) for t in fit.trials], axis=0)
-        white, walk = np.nan_to_num(rest), np.zeros(3)
+        white, walk = np.fmin(np.nan_to_num(rest), np.sqrt(most_white(fit))), np.zeros(3)
     bias = np.mean([fit.states[t.name].bias for t in fit.trials], axis=0)
     sensor = fit.sensor
     for (effect, parameter), value in ((POWER_ON, bias), (WHITE, white), (WALK, walk)):

@@ -12,6 +12,8 @@ from scipy.ndimage import gaussian_filter1d
 from pyimu.identification.fit.columns import band_segments, band_time, in_band
 from pyimu.identification.fit.damping import slopes
 from pyimu.identification.fit.interpolated import delayed
+from pyimu.identification.fit.most_white import least_density
+from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import Autoregressive
 from pyimu.identification.reference.moving import moving_rows
@@ -36,7 +38,7 @@ class Judge:
     """
 
     def __init__(self, trial: Trial, filters: Sequence) -> None:
-        self.whole, self.known = trial, {}
+        self.whole, self.known, self.of_sensor = trial, {}, {}
         reaches = [r for r in {f.reach(trial.h) for f in filters} if self._is_short(r)]
         self.reach = max(reaches, default=0)
         inner = [(a + self.reach, b - self.reach) for a, b in trial.segments]
@@ -86,6 +88,10 @@ class Judge:
         rest = [self._rest(self._columns(f)) for f in filters]
         best = min(rest, key=lambda r: float(np.sum(np.square(r))))
         self.noise = [Autoregressive.fit([(column, self.time, self.segments)]) for column in best.T]
+        period = self.whole.h * self.whole.band.stride
+        most = least_density(best, self.segments, period) / self.whole.h
+        self.most = np.full(3, np.inf)
+        self.most[list(self.trial.axes)] = np.sqrt(most)
 
     def _rest(self, columns: Sequence[np.ndarray]) -> np.ndarray:
         """What the columns (m, c) of each axis leave of it (m, k)."""
@@ -96,7 +102,8 @@ class Judge:
         if not self.noise or not self._reaches(one):
             return np.inf, np.inf
         if one not in self.known:
-            columns, power, alike = self._columns(one), -self._own(one), 0.0
+            columns = self._columns(one)
+            power, alike = -self._own(one), 0.0
             for i, noise in enumerate(self.noise):
                 y, x, more = self._white(noise, self.shown[:, [i]], columns[i], self._taken[i])
                 y, more = y - explained(x, y), more - explained(x, more)
@@ -107,10 +114,31 @@ class Judge:
         return self.known[one]
 
     def _own(self, one) -> float:
-        """Power of the sensor's white noise behind a filter, in units of the noise: none to speak
-        of beside that of attitudes.
+        """Power of the sensor's white noise behind a filter, in units of the noise: little beside
+        that of a camera's attitudes, and most of what a star tracker's or positions leave.
         """
-        return 0.0
+        if one not in self.of_sensor:
+            drawn = np.array(self._drawn)
+            if one is not None:
+                for a, b in self.whole.segments:
+                    drawn[a:b] = one.seen(drawn[a:b], self.whole.h, None)
+            seen = in_band(self.trial, self._as_reference(drawn))
+            each = zip(self.noise, seen.T[..., None], strict=True)
+            power = [np.sum(self._white(noise, column)[0] ** 2) for noise, column in each]
+            self.of_sensor[one] = float(sum(power))
+        return self.of_sensor[one]
+
+    @cached_property
+    def _drawn(self) -> np.ndarray:
+        """A draw (n, 3) of the sensor's white noise, no more than is left of the reference."""
+        std = np.fmin(np.nan_to_num(rest_noise(self.whole)), self.most)
+        return std * np.random.default_rng(1).standard_normal(self.whole.y.shape)
+
+    def _as_reference(self, values: np.ndarray) -> np.ndarray:
+        """Values (n, 3) of the sensor's that are kept beside the reference, of the axes that are
+        judged: of a rate all.
+        """
+        return values[:, list(self.trial.axes)]
 
     def _white(self, noise: Autoregressive, *columns: np.ndarray) -> list[np.ndarray]:
         """Columns beside white noise, less the rows on which samples without information weigh."""

@@ -18,7 +18,6 @@ from scipy.spatial.transform import Rotation
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.damping import slopes
 from pyimu.identification.fit.interpolated import TAPS
-from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.judged import Judge, explained
 from pyimu.identification.reference.moving import moving_rows, turned_onto
@@ -58,7 +57,7 @@ class PlacesJudge(Judge):
     """
 
     def __init__(self, trial: Trial, filters, rate: np.ndarray) -> None:
-        self.rate, self.leads, self.of_sensor = rate, {}, {}
+        self.rate, self.leads = rate, {}
         super().__init__(trial, filters)
 
     def lead(self, one) -> float:
@@ -98,32 +97,16 @@ class PlacesJudge(Judge):
         if one is not None:
             for a, b in self.whole.segments:
                 world[a:b] = one.seen(world[a:b], self.whole.h, None)
-        # Of positions nothing is kept that their noise hides.
-        world = self.whole.place.shown(world, self.whole.segments)
+        world = self._as_reference(world)
         for _ in range(0 if one == TOGETHER else ROUNDS):
             lead = self._early(world)
             self.leads[one] += lead
             world = self._led(world, lead / self.whole.h)
         return self._by_sensor(world)
 
-    def _own(self, one) -> float:
-        """As ``Judge._own``: of positions without noise it is most of what is left."""
-        if one not in self.of_sensor:
-            drawn = np.array(self._drawn)
-            if one is not None:
-                for a, b in self.whole.segments:
-                    drawn[a:b] = one.seen(drawn[a:b], self.whole.h, None)
-            seen = in_band(self.trial, self.whole.place.shown(drawn, self.whole.segments))
-            each = zip(self.noise, seen.T[..., None], strict=True)
-            power = [np.sum(self._white(noise, column)[0] ** 2) for noise, column in each]
-            self.of_sensor[one] = float(sum(power))
-        return self.of_sensor[one]
-
-    @cached_property
-    def _drawn(self) -> np.ndarray:
-        """A draw (n, 3) of the sensor's white noise."""
-        std = np.nan_to_num(rest_noise(self.whole))
-        return std * np.random.default_rng(1).standard_normal(self.whole.y.shape)
+    def _as_reference(self, values: np.ndarray) -> np.ndarray:
+        """As ``Judge._as_reference``: of positions nothing is kept that their noise hides."""
+        return self.whole.place.shown(values, self.whole.segments)
 
     def _by_sensor(self, world: np.ndarray) -> list[np.ndarray]:
         """The columns (m, 10) of forces (n, 12) in the world's axes, each axis's."""
