@@ -8,17 +8,27 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.belief import hidden, unbelievable
 from pyimu.identification.search.candidates import Group
-from pyimu.identification.search.choice import SET_WIDTH, Refined, Tried, ahead, refine
+from pyimu.identification.search.choice import (
+    ALIKE,
+    SET_WIDTH,
+    Refined,
+    Tried,
+    ahead,
+    refine,
+)
 from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
 from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.identification.search.passing import passing
 from pyimu.identification.search.reference_line import is_line_of_reference
 from pyimu.identification.search.rounded import OF_DIGITS, within_digits
-from pyimu.identification.search.screen import fitted_gain, keys_of
+from pyimu.identification.search.screen import fitted_gain, is_slow, keys_of
 from pyimu.model.catalogue import CATALOGUE
 
 OF_REFERENCE = "is the reference's noise: the sensor's own signal does not show it"
 """The reason for which an effect is refused that the reference alone makes look like one."""
+
+GROWTH = "growth with time"
+"""The family of effects whose bias grows as long as a log goes on."""
 
 
 def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tuple[Refined, str]:
@@ -41,12 +51,11 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
         return chosen, reason
     if chosen.screened.effect not in old.sensor.values:
         chosen, reason = _shown(old, chosen, gate)
-        if reason:
-            return chosen, reason
-        reason = unbelievable(chosen.fit, keys_of(chosen.screened))
-        if reason:
+        beyond = unbelievable(chosen.fit, keys_of(chosen.screened))
+        if beyond:
             tried.denied.append((chosen, "whose size is beyond belief"))
-            return chosen, reason
+        if reason or beyond:
+            return chosen, reason or beyond
     chosen, seen = _confirmed(old, chosen, held)
     reason = _against(chosen, seen, gate)
     if not reason:
@@ -118,11 +127,20 @@ def _against(chosen: Refined, seen: Evidence, gate: float) -> str:
     return ""
 
 
+def _least(other: Refined, chosen: Refined) -> float:
+    """What a refused effect must explain more [nat] than a chosen one to stand for it: a growth
+    with time that no part has is a bias that wanders, as each does, and no effect is as likely.
+    """
+    grows, taken = (CATALOGUE[one.screened.effect] for one in (other, chosen))
+    return ALIKE if grows.family == GROWTH and is_slow(taken) else SET_WIDTH
+
+
 def _stands_in(tried: Tried, chosen: Refined, gate: float) -> str:
     """The refused effect that explains more than a chosen candidate and leaves it nothing to
     explain, if any does: what it stands for is not known, and the candidate only mimics it.
     """
-    for other, what in ((o, what) for o, what in tried.denied if ahead(o, chosen) > SET_WIDTH):
+    denied = ((o, what) for o, what in tried.denied if ahead(o, chosen) > _least(o, chosen))
+    for other, what in denied:
         beside = refine(other.fit, chosen.screened)
         if beside.gain <= gate:
             return f"explains what {other.screened.effect} would explain, {what}"
