@@ -53,16 +53,21 @@ def test_what_may_be_the_sensors_misalignment_stays_its_own(log):
     assert np.any(np.abs(of(closed, "misalignment").value) > np.radians(0.2))
 
 
-@pytest.mark.parametrize("apart", [False, True])
-def test_the_force_of_a_turned_unit_is_turned_with_its_rate(apart):
-    """By 4 deg it was a misalignment of 2.8 deg of the accelerometer, or slips of the clock. A
-    force of another unit, not turned, stays as it is.
+@pytest.mark.parametrize(
+    ("degrees", "apart", "late"), [(4.0, False, 0), (4.0, True, 0), (-170.0, False, 230)]
+)
+def test_the_force_of_a_turned_unit_is_turned_with_its_rate(degrees, apart, late):
+    """By 4 deg it was a misalignment of 2.8 deg of the accelerometer, or slips of the clock; on a
+    clock of its own, by 170 deg, its force was another body's. A force of another unit, not turned,
+    stays as it is. ``late`` are the rows by which the second unit's are stamped late.
     """
     world = drive(minutes=4, seed=34)
     made = recording(world, seed=7)
-    turn = Rotation.from_rotvec(np.radians(4.0) * np.array([2.0, -1.0, 2.0]) / 3.0)
+    turn = Rotation.from_rotvec(np.radians(degrees) * np.array([2.0, -1.0, 2.0]) / 3.0)
     force = made.ref_force if apart else turn.apply(made.ref_force)
-    closed = pyimu.close(replace(made, ref_rate=turn.apply(made.ref_rate), ref_force=force))
+    told = slice(len(force) - late)
+    rate, force = turn.apply(made.ref_rate)[told], force[told]
+    closed = pyimu.close(replace(made.slice(late, None), ref_rate=rate, ref_force=force))
     assert not closed.added and closed.verdict == "clean", closed.report()
     assert [f.column for f in closed.quality if f.kind == "reference_turned"] == ["gyro"]
     (m,) = [e for e in closed.estimated if (e.sensor, e.effect) == ("accel", "misalignment")]
@@ -112,3 +117,28 @@ def test_what_the_gyro_does_not_show_of_a_turn_is_no_misalignment_of_the_acceler
     )
     closed = pyimu.close(log, parse_part(LEVEL, "level.toml"))
     assert not closed.added, closed.report()
+
+
+def test_a_second_unit_on_its_own_clock_shows_what_forces_do_to_a_gyro():
+    """Its force was on its own clock and in its own axes beside the gyro, whose g-sensitivity was
+    then "unexplained".
+    """
+    world = drive(minutes=4, seed=35)
+    G = np.radians(0.1) / 9.81 * np.array([[1.0, -0.5, 0.3], [0.2, -1.2, 0.4], [-0.6, 0.5, 0.9]])
+    made = recording(world, gyro_change=lambda x: x + world.force @ G.T, seed=8)
+    turn = Rotation.from_rotvec(np.radians(170.0) * np.array([0.1, -0.1, 0.99]))
+    clock = 2.3 + (1 + 2e-5) * made.time
+    second = Recording.from_arrays(
+        "second",
+        time=clock,
+        ref_rate=turn.apply(made.ref_rate),
+        ref_force=turn.apply(made.ref_force),
+    )
+    alone = replace(made, ref_rate=None, ref_force=None)
+    closed = pyimu.close(alone, reference=second)
+    (found,) = [a for a in closed.added if (a.sensor, a.effect) == ("gyro", "g_sensitivity")]
+    value, std, _ = found.parameters["G"]
+    shown = np.asarray(std) > 0.0
+    assert shown.sum() > 6
+    z = ((np.asarray(value) - G) / np.where(shown, std, 1.0))[shown]
+    assert np.sum(z**2) < chi2.isf(1e-4, shown.sum()), z

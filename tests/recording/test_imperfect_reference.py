@@ -67,6 +67,19 @@ def test_a_jump_of_the_world_is_left_out(angle):
     assert lost[0] == pytest.approx(2975, abs=2) and lost[-1] == pytest.approx(3025, abs=2)
 
 
+@pytest.mark.parametrize("late", [-0.03, 0.02, 1.4])
+def test_a_jump_shows_beside_a_gyro_that_is_early_or_late(late):
+    """A camera's are 30 ms late as a rule: what it was behind hid jumps of a degree."""
+    jump = Rotation.from_rotvec(np.deg2rad(1.2) * np.array([0.6, 0.0, 0.8]))
+    q = quaternions(noisy(attitude(TIME), 0.05))
+    q[3000:] = quaternions(jump * Rotation.from_quat(q[3000:], scalar_first=True))
+    measured = rate(TIME - late) + 1.7e-3 * np.random.default_rng(2).standard_normal((N, 3))
+    reference = reference_rate(Recording.from_arrays(time=TIME, gyro=measured, ref_q=q))
+    (spikes,) = reference.findings
+    assert spikes.kind == "reference_spikes" and spikes.count == 1
+    assert spikes.detail["largest_angle"] == pytest.approx(np.deg2rad(1.2), abs=np.deg2rad(0.3))
+
+
 @pytest.mark.parametrize("late", [0.0, 0.02, 1.4])
 @pytest.mark.parametrize("seed", range(4))
 def test_motion_is_no_jump(seed, late):

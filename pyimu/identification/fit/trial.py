@@ -311,7 +311,8 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
     if reference.time is not None:
         recording = at_times(recording, reference.time)
     axes = tuple(i for i in _live(recording.gyro) if np.isfinite(reference.rate[:, i]).any())
-    u, known = environment(recording)
+    # A second unit's force is on that unit's clock, and in its axes.
+    u, known = environment(recording, measured=recording.reference is not None)
     u[:, OWN["gyro"]] = np.where(np.isfinite(reference.rate), reference.rate, 0.0)
     known = known | {"rate"} | _slope(u, recording, "rate", "angular_acceleration")
     known = known | fill_place(u, recording, reference, latitude)
@@ -437,8 +438,11 @@ def _live(values: np.ndarray) -> tuple[int, ...]:
     return tuple(moves or (i for i, v in enumerate(known) if len(v)))
 
 
-def environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
-    """Inputs (n, N_INPUT) that are not the sensor's own, and which of them are known.
+def environment(
+    recording: Recording, *, measured: bool = False
+) -> tuple[np.ndarray, frozenset[str]]:
+    """Inputs (n, N_INPUT) that are not the sensor's own, and which of them are known; the force as
+    the reference says it, or as it was ``measured``, where there is the one or the other.
 
     The others stand at their start values.
     """
@@ -448,7 +452,8 @@ def environment(recording: Recording) -> tuple[np.ndarray, frozenset[str]]:
         u[:, k] = START[k]
     u[:, OWN["accel"]] = 0.0
     u[:, COLUMNS["time"]] = (recording.time - recording.time[0])[:, None]
-    force = recording.accel if recording.ref_force is None else recording.ref_force
+    told = recording.accel, recording.ref_force
+    force = next((f for f in (told if measured else told[::-1]) if f is not None), None)
     if force is not None:
         u[:, OWN["accel"]] = np.nan_to_num(filled(recording.time, force))
         u[:, COLUMNS["vibration"]] = vibration_of(u[:, OWN["accel"]], recording)

@@ -40,7 +40,8 @@ def with_mounting(trials: Sequence[Trial]) -> list[Trial]:
 
 def with_turned_force(log: Recording, trials: Sequence[Trial]) -> Recording:
     """A log whose reference of force comes from the unit that the gyro, in one of its ``trials``,
-    showed to be turned, with that force in the sensor's axes; as it is where that leaves more.
+    showed to be turned, with that unit's force and rate in the sensor's axes; as it is where that
+    leaves more.
     """
     trial = next((t for t in trials if t.name == log.name and _may_be_turned(t)), None)
     if trial is None or not trial.free_rotation or log.ref_force is None or log.accel is None:
@@ -48,14 +49,27 @@ def with_turned_force(log: Recording, trials: Sequence[Trial]) -> Recording:
     turn = _turn(trial)[0]
 
     def turned(r: Recording) -> Recording:
-        return r if r.ref_force is None else replace(r, ref_force=r.ref_force @ turn)
+        rate = None if r.ref_rate is None else r.ref_rate @ turn
+        return r if r.ref_force is None else replace(r, ref_force=r.ref_force @ turn, ref_rate=rate)
 
-    known = np.isfinite(log.ref_force).all(axis=1) & np.isfinite(log.accel).all(axis=1)
-    other = turned(log)
-    left = [(log.accel - r.ref_force)[known].std(axis=0) for r in (log, other)]
+    force = _on_time(log, trial)
+    known = np.isfinite(force).all(axis=1) & np.isfinite(log.accel).all(axis=1)
+    left = [(log.accel - f)[known].std(axis=0) for f in (force, force @ turn)]
     if not known.any() or np.linalg.norm(left[1]) >= np.linalg.norm(left[0]):
         return log
+    other = turned(log)
     return replace(other, reference=None if log.reference is None else turned(log.reference))
+
+
+def _on_time(log: Recording, trial: Trial) -> np.ndarray:
+    """The force (n, 3) that a log's reference says, by the clock that the gyro showed; NaN where it
+    says none.
+    """
+    if trial.clock is None or not trial.clock.taken_out:
+        return log.ref_force
+    then = log.time - trial.clock.at(log.time)
+    columns = [np.interp(then, log.time, f, np.nan, np.nan) for f in log.ref_force.T]
+    return np.stack(columns, axis=1)
 
 
 def with_rest_of_turn(make: Callable, turned: Collection[str]) -> Callable:

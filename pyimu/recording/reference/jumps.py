@@ -12,6 +12,7 @@ from scipy.ndimage import maximum_filter1d, median_filter
 
 from pyimu.recording.clock import runs
 from pyimu.recording.quality.clipping import clipped
+from pyimu.recording.reference.epoch import ALIKE, correlations
 
 SIDE = 12
 """Samples on either side through which a line is laid: a step is how far the two lines are apart in
@@ -33,6 +34,13 @@ AT_ONCE = 0.5
 """Share of a jump that may lie in other steps than its own: what takes longer is motion that sensor
 and reference show with different delays."""
 
+FARTHEST = 900
+"""Samples by which the clocks of the two may be apart, half a minute of a camera's: one further off
+is set right before anything is looked at."""
+
+PLAINLY = 0.5
+"""Of what a lag of zero leaves of the correlation, what another may leave."""
+
 ISOLATION = 3.0
 """And what is near but does not share its samples: fast motion that a delayed reference shows late
 comes in waves, a jump alone."""
@@ -53,13 +61,10 @@ def jumps(
         return none
     from scipy.integrate import cumulative_trapezoid  # a tenth of a second, and few logs need it
 
-    turned = np.column_stack(
-        [
-            np.interp(known, time, v)
-            for v in cumulative_trapezoid(np.nan_to_num(gyro), time, axis=0, initial=0.0).T
-        ]
-    )
-    beyond = _beyond(steps, np.diff(turned, axis=0), usable)
+    angle = cumulative_trapezoid(np.nan_to_num(gyro), time, axis=0, initial=0.0)
+    own = np.diff(_at(known, time, angle), axis=0)
+    late = _late(steps, own, usable) * float(np.median(np.diff(known)))
+    beyond = _beyond(steps, np.diff(_at(known + late, time, angle), axis=0), usable)
     vectors = _distances(np.cumsum(beyond, axis=0), usable)
     size = np.linalg.norm(vectors, axis=1)
     at, gate = _peaks(size)
@@ -68,6 +73,23 @@ def jumps(
     at = at[_less_a_slip(vectors[at], (steps - beyond)[at]) > gate[at]]
     # Sample 0 has no step before it: distance k lies between samples k and k + 1.
     return at + 1, size[at]
+
+
+def _at(instants: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Values (n, 3) at ``time`` (n,) brought to ``instants`` (m,)."""
+    return np.column_stack([np.interp(instants, time, v) for v in values.T])
+
+
+def _late(steps: np.ndarray, turned: np.ndarray, usable: np.ndarray) -> int:
+    """Samples by which the gyro shows later what the reference does, by the sizes of their turns
+    (m, 3), which no mounting changes; 0 where that is not plain.
+    """
+    x, y = (np.linalg.norm(v, axis=1) for v in (steps, turned))
+    most = min(FARTHEST, len(x) // 4)
+    lags, known = np.arange(-most, most + 1), usable.astype(float)
+    r = correlations(np.where(usable, x, 0.0), known, np.where(usable, y, 0.0), known, lags, most)
+    best = int(np.argmax(r))
+    return int(lags[best]) if r[best] > ALIKE and 1 - r[best] < PLAINLY * (1 - r[most]) else 0
 
 
 def _less_a_slip(jump: np.ndarray, turn: np.ndarray) -> np.ndarray:
@@ -92,11 +114,13 @@ def _usable(time: np.ndarray, known: np.ndarray, gyro: np.ndarray) -> np.ndarray
 
 
 def _beyond(steps: np.ndarray, turned: np.ndarray, usable: np.ndarray) -> np.ndarray:
-    """Steps (m, 3) less what the gyro ``turned`` (m, 3), whose axes and gain may be others.
+    """Steps (m, 3) less what the gyro ``turned`` (m, 3), whose axes, gain and clock may be others.
 
-    The gain is fitted twice, the second time without the tenth that it missed most.
+    The gain, and what a sample earlier or later makes of it, are fitted twice, the second time
+    without the tenth that they missed most.
     """
-    columns = np.column_stack([np.ones(len(turned)), turned])
+    first = np.gradient(turned, axis=0)
+    columns = np.column_stack([np.ones(len(turned)), turned, first, np.gradient(first, axis=0)])
     rows, left = usable, steps
     for _ in range(2):
         left = steps - columns @ np.linalg.lstsq(columns[rows], steps[rows], rcond=1e-9)[0]
