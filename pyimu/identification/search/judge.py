@@ -17,7 +17,7 @@ from pyimu.identification.search.choice import (
     refine,
 )
 from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
-from pyimu.identification.search.own_signal import is_of_reference
+from pyimu.identification.search.own_signal import AT_ZERO, is_of_reference
 from pyimu.identification.search.passing import passing
 from pyimu.identification.search.reference_line import is_line_of_reference
 from pyimu.identification.search.rounded import OF_DIGITS, within_digits
@@ -26,6 +26,9 @@ from pyimu.model.catalogue import CATALOGUE
 
 OF_REFERENCE = "is the reference's noise: the sensor's own signal does not show it"
 """The reason for which an effect is refused that the reference alone makes look like one."""
+
+OF_REFERENCE_AT_ZERO = "is the reference's noise about zero, which the sensor does not show"
+"""As ``OF_REFERENCE``, of noise that is nothing beside the sensor's, and need not be known."""
 
 GROWTH = "growth with time"
 """The family of effects whose bias grows as long as a log goes on."""
@@ -42,9 +45,11 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
     if (
         is_line_of_reference(chosen.fit, name)
         if is_line
-        else is_of_reference(old, chosen.fit, damps=damps)
+        else is_of_reference(old, chosen.fit, follows=damps)
     ):
         return chosen, OF_REFERENCE
+    if name in AT_ZERO and is_of_reference(old, chosen.fit, follows=True):
+        return chosen, OF_REFERENCE_AT_ZERO
     if within_digits(old, chosen.fit):
         return chosen, OF_DIGITS
     if reason := passing(chosen.fit, name):

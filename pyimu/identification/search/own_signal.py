@@ -24,6 +24,10 @@ from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import OWN
 
+AT_ZERO = ("bias_asymmetry", "dead_zone", "hard_dead_zone")
+"""Effects that make as much of an input near zero as of a larger one, or all of it: of an axis that
+is at rest there they know the noise of its reference, however little that is."""
+
 
 @dataclass(frozen=True)
 class _Sums:
@@ -40,17 +44,18 @@ class _Sums:
 
 
 def is_of_reference(
-    old: Fit, new: Fit, certain: float = CERTAIN, seed: int = 1, damps: bool = False
+    old: Fit, new: Fit, certain: float = CERTAIN, seed: int = 1, follows: bool = False
 ) -> bool:
     """Whether what a ``new`` model explains beyond an ``old`` one is the noise of a doubted
     reference: by the sensor's own signal nothing is likelier than a true effect, by more than
     ``certain`` [nat].
 
-    One that ``damps`` the reference takes its noise away as it does the motion: a reference that
-    was measured is doubted then whatever it seems to have.
+    One that ``follows`` the noise of a reference takes it away as it does the motion, or has its
+    sign where an axis is at rest: a reference that was measured is doubted then whatever it seems
+    to have.
     """
     rng = np.random.default_rng(seed)
-    trials = [t for t in new.trials if t.doubt or (damps and t.reference in MEASURED)]
+    trials = [t for t in new.trials if t.doubt or (follows and t.reference in MEASURED)]
     total = sum((_sums(old, new, t, rng) for t in trials), _Sums())
     if total.own <= 0.0:
         return False
