@@ -57,6 +57,8 @@ def inspect(
     readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
     readers, foreign = _with_made_columns(readers, foreign)
     known = None if foreign is not None else recognised(readers[0])
+    if foreign is None and known is None and len(readers) == 1:
+        readers += [open_reader(given[0], {"imu": topic}) for topic in readers[0].words]
     maps = [_own_map(reader, foreign, index) for index, reader in enumerate(readers)]
     kind = _kind(readers[0], known is not None, foreign is not None)
     guessed = None in maps and (foreign is None or not foreign.columns)

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from pyimu.recording.guess.endings import GLUED, fits, in_brackets, in_words
+from pyimu.recording.languages import in_english
 from pyimu.recording.spelling import unit_of
 from pyimu.units import DEGREES, Unit, parse, same_dimension
 
@@ -71,9 +72,22 @@ TRUTHS = {"ref", "reference", "vicon", "opt", "optical", "omc", "mocap", "truth"
 DERIVED = (
     {"est", "estimated", "estimate", "filtered", "filt", "user", "free", "gravity", "global"}
     | {"world", "bias", "cov", "covariance", "var", "std", "offset", "err", "error", "delta"}
-    | {"dv", "dq", "increment", "set", "cmd", "target", "kalman", "fused", "uncalibrated", "lin"}
+    | {
+        "low",
+        "lower",
+        "dv",
+        "dq",
+        "increment",
+        "set",
+        "cmd",
+        "target",
+        "kalman",
+        "fused",
+        "uncalibrated",
+        "lin",
+    }
 )
-"""Words for what is no raw sample."""
+"""Words for what is no raw sample; ``low`` is the lower half of a number of 32 bits."""
 
 NO_SAMPLES = DERIVED | TRUTHS
 """Words for what no sensor measures."""
@@ -163,8 +177,10 @@ def named(cell: str) -> Name:
     if stated is not None and not stated[1]:
         text, unit = stated[0], "1"
     elif stated is not None and not stated[1].isdigit():
-        text, said = stated
+        text, said = in_english(stated[0]), stated[1]
         unit = _unit(said, text)
+        text = _remark_first(text) if unit is not None else text
+    text = in_english(text)
     words = [word.casefold() for word in _WORD.findall(text)]
     if unit is None and not said:
         words, unit = in_words(words, {*"xyz", *ROLLS, *TIMES, *TEMPERATURES})
@@ -175,6 +191,13 @@ def named(cell: str) -> Name:
     axis, words = _axis(words)
     words = ["gforce"] if words in (["g", "f"], ["g", "force"]) else words
     return Name(cell, tuple(words), axis, unit, said or (unit or ""))
+
+
+def _remark_first(text: str) -> str:
+    """A name with what stands in brackets at its end in front of it: ``ACC 1.X (IM)`` is an x."""
+    remark = in_brackets(text)
+    words = remark is not None and remark[1][:1].isalpha()  # an index is none: accel[0]
+    return f"{remark[1]} {remark[0]}" if remark is not None and words else text
 
 
 def thermometer(names: Iterable[Name]) -> Name | None:
@@ -229,6 +252,9 @@ def _axis(words: list[str]) -> tuple[str, list[str]]:
             match = _AXIS_FIRST.fullmatch("".join(words[:count]))
             if match and len(words) > count:
                 return match[1], [match[2], *words[count:]]
+        rest = Name("", tuple(words[1:]))
+        if words[0] in ("x", "y", "z") and max(rest.of(group) for group in STRONG) > 1:
+            return words[0], words[1:]
     return "", words
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.units import STANDARD_GRAVITY
+from pyimu.units import STANDARD_GRAVITY, parse
 
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "day": 86400.0}
 """Units in which clocks count, and the serial dates of spreadsheets."""
@@ -37,6 +37,10 @@ LIKE = 2.0
 LEAST_MIDDLE = 512.0
 """The middle of the numbers of a converter of ten bits."""
 
+TURNED_MIDDLE = 0.25
+"""By how much all three axes may be off the middle: gravity on one is a fifth of it, as on ADXL335
+with OpenSignals' converter."""
+
 SURE = 0.4
 """Least correlation of the gravity's turning with what the rate makes of it. Chosen on BROAD 02, 07
 and an MPU-9150 turned by hand; of a car, a pendulum and a board waved by hand it then gave the
@@ -54,8 +58,17 @@ WRAP = 0.05
 SENSITIVITIES = {
     **dict.fromkeys((262.4, 131.0, 65.5, 32.8, 16.4), "InvenSense and Bosch"),
     **{1000 / mdps: f"ST, {mdps:g} mdps/LSB" for mdps in (4.375, 8.75, 17.5, 35.0, 70.0, 140.0)},
+    **dict.fromkeys((10.0, 20.0, 25.0, 40.0, 50.0, 160.0), "Analog Devices"),
+    100.0: "TSND151",
 }
-"""Counts a deg/s of gyros, and whose (data sheets of MPU-6050, BMI160, LSM6DSO, L3GD20)."""
+"""Counts a deg/s of gyros, and whose (data sheets of MPU-6050, BMI160, LSM6DSO, L3GD20, ADIS16405,
+ADIS16448, ADIS16470, ADIS16480 and ADIS16495-1 to -3; TSND151)."""
+
+COUNTS_A_G = {
+    k: f" (Analog Devices, {1000 / k:g} mg/LSB)" for k in (800.0, 1200.0, 1250.0, 4000.0)
+} | {10000.0: " (0.1 mg/LSB)"}
+"""Counts a g of accelerometers beside powers of two, and whose (data sheets of ADIS16470,
+ADIS16448, ADIS16480 and ADIS16495; TSND151)."""
 
 FITS = 0.25
 """By how much a sensitivity may differ from what gravity's turning shows."""
@@ -80,7 +93,7 @@ class UnitGuess:
     """A unit and the reason for it; ``unit`` is None where the numbers do not tell.
 
     ``value`` is the size of one count in ``unit`` where the numbers are counts. ``sizes`` are those
-    that it may have in deg/s where ``unit`` is None for there are several.
+    that it may have, in deg/s or g, where ``unit`` is None for there are several.
     """
 
     unit: str | None
@@ -145,9 +158,9 @@ def force_unit(force: np.ndarray) -> UnitGuess:
     size = resting_size(force)
     if size is None:
         return UnitGuess(None, "no quiet part of the log shows gravity")
-    middle = _middle(force)
-    if middle is not None:
-        why = f"whole numbers about {middle:.0f}, as counts without a sign: [scale] takes an offset"
+    zero = middle(force)
+    if zero is not None:
+        why = f"whole numbers about {zero:.0f}, as counts without a sign: [scale] takes an offset"
         return UnitGuess(None, why)
     for unit, one in (("m/s^2", STANDARD_GRAVITY), ("g", 1.0), ("mg", 1000.0)):
         if abs(size / one - 1) < NEAR_GRAVITY:
@@ -155,24 +168,42 @@ def force_unit(force: np.ndarray) -> UnitGuess:
                 continue
             return UnitGuess(unit, f"gravity is {size:.4g} then")
     if counts(force.ravel()) and size > 100:
-        whole = 2.0 ** round(np.log2(size))
-        if abs(size / whole - 1) < NEAR_GRAVITY:
-            return UnitGuess("g", f"gravity is {size:.5g} counts, {whole:.0f} a g", 1 / whole)
-        return UnitGuess(None, f"gravity is {size:.5g} counts: see the data sheet for LSB/g")
+        return _counts_a_g(size)
     return UnitGuess(None, f"gravity is {size:.4g}, in no usual unit (does the log hold it?)")
 
 
-def _middle(force: np.ndarray) -> float | None:
-    """The power of two about which two axes or more lie and none has a sign, as counts (n, 3) of a
+def _counts_a_g(size: float) -> UnitGuess:
+    """The size of a count of which gravity is ``size``: that of the nearest sensitivity, where the
+    next is clearly less near; else both.
+    """
+    seen = f"gravity is {size:.5g} counts"
+    sizes = {2.0 ** round(np.log2(size)): "", **COUNTS_A_G}
+    near, *others = sorted(sizes, key=lambda k: abs(float(np.log(size / k))))
+    if abs(size / near - 1) >= NEAR_GRAVITY:
+        return UnitGuess(None, f"{seen}: see the data sheet for LSB/g")
+    off, other = (abs(float(np.log(size / k))) for k in (near, others[0]))
+    why = f"{seen}, {near:.0f} a g{sizes[near]}"
+    if other < NEAR_GRAVITY:
+        why += f"{' or' if other < CLEARLY * off else ', not'} {others[0]:.0f}{sizes[others[0]]}"
+    if other < CLEARLY * off:
+        return UnitGuess(None, why, sizes=(1 / near, 1 / others[0]))
+    return UnitGuess("g", why, 1 / near)
+
+
+def middle(force: np.ndarray) -> float | None:
+    """The power of two near which two axes or more lie and none has a sign, as counts (n, 3) of a
     converter have that begin at zero; None of any other numbers.
     """
     if not counts(force.ravel()) or not np.nanmin(force) > 0:
         return None
     middles = np.nanmedian(force, axis=0)
     powers = 2.0 ** np.rint(np.log2(middles))
-    near = powers[np.abs(middles / powers - 1) < NEAR_GRAVITY]
-    alike = [p for p in near if np.count_nonzero(near == p) > 1 and p >= LEAST_MIDDLE]
-    return float(alike[0]) if alike else None
+    off = np.abs(middles / powers - 1)
+    for power in powers[powers >= LEAST_MIDDLE]:
+        own = off[powers == power]
+        if np.count_nonzero(own < NEAR_GRAVITY) > 1 or len(own) == 3 and own.max() < TURNED_MIDDLE:
+            return float(power)
+    return None
 
 
 def _is_power(size: float) -> bool:
@@ -217,6 +248,23 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
     if largest > FASTEST:
         return UnitGuess("deg/s", f"{largest:.4g} rad/s would be faster than anything turns")
     return UnitGuess(None, f"rad/s or deg/s? {_lacking(force, period)} to tell")
+
+
+def angle_of_rate(
+    unit: str, said: str, angles: np.ndarray, force: np.ndarray | None, period: float | None
+) -> UnitGuess:
+    """What a gyro's numbers (n, 3) are of which the header says an angle's ``unit``, as it ``said``
+    it: that a second, or the angles between samples ``period`` s apart, by how gravity turns.
+    """
+    asked = UnitGuess(f"{unit}/s", f"the header says {said}: a second, of a rate?")
+    if force is None or period is None:
+        return asked
+    slope = turning_of_gravity(angles, force, period)
+    each = 1 / period
+    if slope is None or not 1 / LIKE < slope / parse(unit).factor / each < LIKE:
+        return asked
+    why = f"the header says {said}, and gravity turns so far from sample to sample"
+    return UnitGuess(f"{unit}/s", why, each)
 
 
 def _lacking(force: np.ndarray | None, period: float | None) -> str:

@@ -33,9 +33,11 @@ from pyimu.recording.guess.names import (
 from pyimu.recording.guess.numbers import (
     SECONDS,
     UnitGuess,
+    angle_of_rate,
     angle_unit,
     counts,
     force_unit,
+    middle,
     rate_unit,
     resting_size,
     time_unit,
@@ -109,7 +111,7 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     The forces of another file, ``beside``, tell the gyro's unit where it has none of its own.
     Raises UserError where its numbers cannot be read.
     """
-    found = Proposal(reader.path, tuple(reader.header))
+    found = Proposal(reader.path, tuple(reader.header), topic=reader.word)
     numbers = Numbers(reader)
     period = _time(found, reader, numbers, rate)
     vectors = triads(reader.header, reader.path.name)
@@ -282,12 +284,17 @@ def _by_numbers(
     time = {g.cell for g in found.guesses}
     at = [k for k in numbers.positions if reader.header[k] not in time and k not in away]
     names = [named(cell) for cell in reader.header]
-    runs = [at[i : i + 3] for i in range(len(at) - 2) if at[i + 2] - at[i] == 2]
-    runs = [run for run in runs if are_alike([names[k] for k in run])]
-    if not runs or len(at) > 40:
+    if len(at) < 3 or len(at) > 40:
         return {"accel": None, "gyro": None}
     table = numbers.of(at).reshape(-1, len(at))
     column = {k: table[:, i] for i, k in enumerate(at)}
+    moving = [k for k in at if np.nanmin(column[k]) < np.nanmax(column[k])]
+    # One that never changes numbers the sensor: between vectors it is an axis of none.
+    at = moving if len(moving) >= 6 else at
+    runs = [at[i : i + 3] for i in range(len(at) - 2) if at[i + 2] - at[i] == 2]
+    runs = [run for run in runs if are_alike([names[k] for k in run])]
+    if not runs:
+        return {"accel": None, "gyro": None}
     away = _unit_fours(found, reader, column)
     away |= {k for k, numbers_of_it in column.items() if _rises(numbers_of_it)}
     runs = [run for run in runs if not set(run) & away]
@@ -296,12 +303,18 @@ def _by_numbers(
     away |= _directions(found, reader, values, like)
     values = {run: v for run, v in values.items() if not set(run) & away}
     like = [run for run in like if run in values]
+    # Beside three that move one that does not is no axis of a force: another channel's, or a flag.
+    whole = {k for run in values if set(run) <= set(moving) for k in run}
+    like = [run for run in like if set(run) <= set(moving) or not set(run) & whole]
     if not like:
+        _without_sign(found, reader, values)
         return {"accel": None, "gyro": None}
     home = {_array(cell) for cell in time}
     accel = min(like, key=lambda r: (_array(reader.header[r[0]]) not in home, _scatter(values[r])))
     home = {_array(reader.header[accel[0]])}
-    rest = [run for run in values if not set(run) & set(accel) and abs(run[0] - accel[0]) % 3 == 0]
+    apart = {k: i for i, k in enumerate(at)}
+    rest = [run for run in values if not set(run) & set(accel)]
+    rest = [run for run in rest if abs(apart[run[0]] - apart[accel[0]]) % 3 == 0]
     rest.sort(key=lambda run: _array(reader.header[run[0]]) not in home)
     turning = [r for r in rest if rate_unit(values[r], values[accel], period).unit is not None]
     gyro = next(iter(turning or rest), None)
@@ -310,6 +323,17 @@ def _by_numbers(
         picked["gyro"] = [(k, names[k]) for k in gyro]
     found.notes.append("accelerometer and gyro were told by their numbers alone: look at them")
     return picked
+
+
+def _without_sign(
+    found: Proposal, reader: Reader, values: Mapping[tuple[int, ...], np.ndarray]
+) -> None:
+    """Note the first vector of counts that may be a force's and have no sign."""
+    for run, vector in values.items():
+        if middle(vector) is not None:
+            cells = ", ".join(reader.header[k] for k in run)
+            found.notes.append(f"{cells} may be the accel: {force_unit(vector).why}")
+            return
 
 
 def _array(cell: str) -> str:
@@ -449,9 +473,9 @@ def _unit(
     unit = units.pop() if len(units) == 1 else None
     if unit is not None and fits(unit, group):
         return UnitGuess(unit, f"the header says {picked[0][1].said}")
-    if unit is not None and group == "gyro" and same_dimension(unit, "rad") and unit != "1":
-        return UnitGuess(f"{unit}/s", f"the header says {picked[0][1].said}: a second, of a rate?")
     values = numbers.of([p for p, _ in picked])
+    if unit is not None and group == "gyro" and same_dimension(unit, "rad") and unit != "1":
+        return angle_of_rate(unit, picked[0][1].said, values, force, period)
     if not np.any(np.nan_to_num(values)):
         return UnitGuess(None, ZEROS)
     if group == "accel":
