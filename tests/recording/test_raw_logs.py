@@ -16,10 +16,11 @@ from pyimu import Recording, inspect, read_recording
 from pyimu.errors import UserError
 from pyimu.recording.formats.layout import told_from
 from pyimu.recording.formats.suffix import open_reader
-from pyimu.recording.guess.names import named, triads
 from pyimu.recording.guess.numbers import force_unit, rate_unit, sensitivities, time_unit
 from pyimu.recording.guess.proposal import proposed
 from pyimu.recording.log import read_reference
+from pyimu.recording.naming.name import named
+from pyimu.recording.naming.triads import triads
 from pyimu.recording.quality.inspect import rate_of_part
 
 ROUNDED = {"german", "xio", "iphone"}

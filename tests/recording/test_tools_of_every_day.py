@@ -10,9 +10,9 @@ from rolling import rolls
 
 from pyimu import inspect, read_recording
 from pyimu.errors import UserError
-from pyimu.recording.guess.names import named
 from pyimu.recording.guess.numbers import force_unit, sensitivities
-from pyimu.recording.languages import code_by_words, in_english
+from pyimu.recording.naming.languages import code_by_words, in_english
+from pyimu.recording.naming.name import named
 from pyimu.units import STANDARD_GRAVITY
 
 N, H = 2000, 0.01

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pyimu.recording.formats.cells import is_number
 from pyimu.recording.formats.clock_times import is_clock_time
 from pyimu.recording.formats.marked import Marked
-from pyimu.recording.guess.names import Name, named
+from pyimu.recording.naming.name import Name, named
 
 FIRST_COLUMNS = 3
 """The word stands in one of so many, with the time."""

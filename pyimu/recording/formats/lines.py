@@ -14,7 +14,7 @@ from typing import BinaryIO
 
 from pyimu.errors import UserError
 from pyimu.recording.formats.cells import ERRORS
-from pyimu.recording.languages import CODES, code_by_words
+from pyimu.recording.naming.languages import CODES, code_by_words
 
 LONGEST = 1 << 18
 """Bytes of a line: a table of 10,000 columns has no longer ones, and a file without ends of lines

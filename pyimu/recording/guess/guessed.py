@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.recording.columns import GROUP_OF
 
 CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s")} | {

@@ -11,25 +11,7 @@ from pyimu.errors import UserError
 from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
 from pyimu.recording.counter import Unwrapped
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.guess.endings import fits
 from pyimu.recording.guess.guessed import Guess, Proposal
-from pyimu.recording.guess.names import (
-    COUNTERS,
-    TRUTHS,
-    Name,
-    angles,
-    are_alike,
-    attitude,
-    is_truth,
-    named,
-    others,
-    places,
-    quaternions,
-    spots,
-    surest,
-    thermometer,
-    triads,
-)
 from pyimu.recording.guess.numbers import (
     SECONDS,
     UnitGuess,
@@ -43,6 +25,11 @@ from pyimu.recording.guess.numbers import (
     time_unit,
     warmth_unit,
 )
+from pyimu.recording.naming.endings import fits
+from pyimu.recording.naming.name import Name, named, thermometer
+from pyimu.recording.naming.references import angles, attitude, is_truth, places, quaternions, spots
+from pyimu.recording.naming.triads import are_alike, others, surest, triads
+from pyimu.recording.naming.words import COUNTERS, TRUTHS
 from pyimu.recording.optical import lines_of, question
 from pyimu.units import FREEZING, same_dimension
 
