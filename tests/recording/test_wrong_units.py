@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pyimu import Recording, inspect, read_recording
-from pyimu.recording.guess.numbers import LIKE, turning_of_gravity
+from pyimu.recording.guess.gravity_turning import LIKE, turning_of_gravity
 from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.quality.inspect import inspect as of_samples
 from pyimu.recording.quality.vehicle_turns import speed_in_turns

@@ -5,55 +5,59 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from pyimu.recording.guess.gravity_turning import LIKE, turning_of_gravity
 from pyimu.units import STANDARD_GRAVITY, parse
 
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "day": 86400.0}
 """Units in which clocks count, and the serial dates of spreadsheets."""
 
+
 USUAL = (8.0, 8000.0)
 """Hz; three decades, within which most inertial sensors are sampled: of units a factor of 1000
 apart one fits where a clock is off by far."""
 
+
 POSSIBLE = (4.0, 10000.0)
 """Hz; a clock that two units bring in here may be in either: 5 Hz in s are 5 kHz in ms."""
+
 
 SLOWEST = 0.01
 """Hz; a unit in which a log would be slower is not worth a word."""
 
+
 EPOCH = (946684800.0, 4102444800.0)
 """s since 1970 of the years 2000 and 2100: so large a time is a date, and tells its unit."""
+
 
 SERIAL = 25569.0
 """Days from the first of spreadsheets, 1899-12-30, to 1970."""
 
+
 NEAR_GRAVITY = 0.1
 """By how much the size of gravity may be off where a sensor rests."""
 
-LIKE = 2.0
-"""A slope of the gravity's turning on the rate is that of a unit to this factor."""
 
 LEAST_MIDDLE = 512.0
 """The middle of the numbers of a converter of ten bits."""
+
 
 TURNED_MIDDLE = 0.25
 """By how much all three axes may be off the middle: gravity on one is a fifth of it, as on ADXL335
 with OpenSignals' converter."""
 
-SURE = 0.4
-"""Least correlation of the gravity's turning with what the rate makes of it. Chosen on BROAD 02, 07
-and an MPU-9150 turned by hand; of a car, a pendulum and a board waved by hand it then gave the
-right unit, and none of a wand that is swung, of fast shifts by hand and of a log at rest."""
 
 FASTEST = 100.0
 """rad/s; hands, vehicles and robots do not turn as fast: larger numbers are degrees a second."""
 
+
 WARM, WARM_K = (-40.0, 125.0), (233.15, 398.15)
 """degC and K within which electronics are specified to work."""
 
+
 WRAP = 0.05
 """How near to a whole turn a step of an angle must come to be one that is counted anew."""
+
 
 SENSITIVITIES = {
     **dict.fromkeys((262.4, 131.0, 65.5, 32.8, 16.4), "InvenSense and Bosch"),
@@ -64,28 +68,24 @@ SENSITIVITIES = {
 """Counts a deg/s of gyros, and whose (data sheets of MPU-6050, BMI160, LSM6DSO, L3GD20, ADIS16405,
 ADIS16448, ADIS16470, ADIS16480 and ADIS16495-1 to -3; TSND151)."""
 
+
 COUNTS_A_G = {
     k: f" (Analog Devices, {1000 / k:g} mg/LSB)" for k in (800.0, 1200.0, 1250.0, 4000.0)
 } | {10000.0: " (0.1 mg/LSB)"}
 """Counts a g of accelerometers beside powers of two, and whose (data sheets of ADIS16470,
 ADIS16448, ADIS16480 and ADIS16495; TSND151)."""
 
+
 FITS = 0.25
 """By how much a sensitivity may differ from what gravity's turning shows."""
+
 
 CLEARLY = 2.0
 """How many times as far off, in logarithms, the next sensitivity must be for one to be taken."""
 
-BLOCKS = (0.04, 0.1, 0.2, 0.5, 1.0)
-"""s; over so long means the turning of gravity is compared with the rate: fast turns need short
-ones, slow turns long ones, and of all that counts in which the two agree best."""
-
 
 TURN = 361.0
 """deg; no pitch has more, however it is counted."""
-
-TRIES = 8
-"""Steps of Newton's method to the scale of a gyro, at most."""
 
 
 @dataclass(frozen=True)
@@ -322,83 +322,3 @@ def sensitivities(lsb: float) -> UnitGuess | None:
         return UnitGuess(None, why, sizes=tuple(1 / k for k in near))
     why = why.replace(" or ", ", not ", 1)
     return UnitGuess("deg/s", why, 1 / near[0])
-
-
-def turning_of_gravity(rate: np.ndarray, force: np.ndarray, period: float) -> float | None:
-    """How many rad/s one of the rates (n, 3) is by what the forces (n, 3) turn; None where they
-    turn with something else, or not at all.
-    """
-    lengths = [max(round(block / period), 2) for block in BLOCKS]
-    found = [(*_turning(rate, force, length, period), length) for length in lengths]
-    slope, correlation, length = max(found, key=lambda each: each[1])
-    return _whole_turns(rate, force, length, period, slope) if correlation > SURE else None
-
-
-def _turning(
-    rate: np.ndarray, force: np.ndarray, length: int, period: float
-) -> tuple[float, float]:
-    """Slope and correlation of the change of the force on that which the rate makes.
-
-    Both are means of blocks of ``length`` samples.
-    """
-    count = min(len(rate), len(force)) // length
-    if count < 8:
-        return 0.0, 0.0
-    w, f = (v[: count * length].reshape(count, length, 3).mean(axis=1) for v in (rate, force))
-    between, turn = 0.5 * (f[1:] + f[:-1]), 0.5 * (w[1:] + w[:-1]) * length * period
-    made, seen = -np.cross(turn, between), np.diff(f, axis=0)
-    size = np.linalg.norm(between, axis=1)
-    middle = np.nanmedian(size) if np.isfinite(size).any() else 0.0
-    kept = np.all(np.isfinite(made) & np.isfinite(seen), axis=1) & (
-        np.abs(size - middle) < 0.2 * middle
-    )
-    made, seen = made[kept].ravel(), seen[kept].ravel()
-    power = float(made @ made) * float(seen @ seen)
-    if len(made) < 24 or power <= 0:
-        return 0.0, 0.0
-    return float(made @ seen) / float(made @ made), float(made @ seen) / np.sqrt(power)
-
-
-def _whole_turns(
-    rate: np.ndarray, force: np.ndarray, length: int, period: float, slope: float
-) -> float:
-    """The ``slope`` of ``_turning`` for turns of any size: -w x f is the change of small ones, and
-    of those of 1 rad between two means it makes it a quarter too large.
-
-    The scale k of the rates is sought at which two neighbouring means agree, each over ``length``
-    samples that were turned, by k w, to where the two blocks meet. Where it is none near the slope,
-    as of a log that rests but for a moment, the slope counts.
-    """
-    step, start = 1e-3, slope
-    for _ in range(TRIES):
-        apart = _apart(rate, force, length, period, slope)
-        more = _apart(rate, force, length, period, slope * (1 + step))
-        size = np.linalg.norm(apart, axis=1)
-        kept = np.isfinite(size) & (size < 3 * np.nanmedian(size))
-        change = ((more - apart) / (slope * step))[kept].ravel()
-        power = float(change @ change)
-        if not power > 0:
-            break
-        before, slope = slope, slope - float(change @ apart[kept].ravel()) / power
-        if abs(slope - before) < step * abs(before) or not slope > 0:
-            break
-    return slope if 1 / LIKE < slope / start < LIKE else start
-
-
-def _apart(
-    rate: np.ndarray, force: np.ndarray, length: int, period: float, scale: float
-) -> np.ndarray:
-    """By how much the mean force (m, 3) of a block and that of the block before it differ, in the
-    axes that the body has between the two.
-    """
-    count = min(len(rate), len(force)) // length
-    w, f = (v[: count * length].reshape(count, length, 3) for v in (rate, force))
-    turn = Rotation.from_rotvec(0.5 * scale * period * np.nan_to_num(w).reshape(-1, 3))
-    halves = turn.as_matrix().reshape(count, length, 3, 3)
-    whole, at_start = np.broadcast_to(np.eye(3), (count, 3, 3)), np.zeros((count, 3))
-    for k in range(length):
-        middle = whole @ halves[:, k]
-        at_start = at_start + np.einsum("nij,nj->ni", middle, f[:, k]) / length
-        whole = middle @ halves[:, k]
-    at_end = np.einsum("nji,nj->ni", whole, at_start)
-    return at_start[1:] - at_end[:-1]

@@ -8,7 +8,8 @@ import numpy as np
 from scipy.special import stdtr
 
 from pyimu.errors import Finding
-from pyimu.recording.guess.numbers import SENSITIVITIES, turning_of_gravity
+from pyimu.recording.guess.gravity_turning import turning_of_gravity
+from pyimu.recording.guess.numbers import SENSITIVITIES
 from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.quality.resolution import comb_step
 from pyimu.recording.quality.vehicle_turns import speed_in_turns
