@@ -6,6 +6,7 @@ import json
 
 import numpy as np
 import pytest
+from log_tables import empatica, nexus
 from rolling import rolls
 
 from pyimu import inspect, read_recording
@@ -235,18 +236,13 @@ def test_a_damaged_head_of_opensignals_is_a_table_all_the_same(head, log, tmp_pa
 
 
 def test_empatica_has_its_time_and_its_rate_above_its_numbers(log, tmp_path):
-    lines = ["1706779452.00, 1706779452.00, 1706779452.00", "32.000000, 32.000000, 32.000000"]
-    lines += rows(np.rint(64 * log[2] / G))
-    found = read_recording(written(tmp_path / "ACC.csv", lines))
+    found = read_recording(empatica(tmp_path, log))
     np.testing.assert_allclose(found.accel, log[2], rtol=0, atol=G / 128 * 1.001)
     np.testing.assert_allclose(found.time, np.arange(N) / 32, atol=1e-9)
 
 
 def test_vicon_nexus_says_the_rate_of_its_devices(log, tmp_path):
-    lines = ["Devices", "100", ",,IMU - Accel,,,IMU - Gyro,,", "Frame,Sub Frame,X,Y,Z,X,Y,Z"]
-    lines += [",,mm/s²,mm/s²,mm/s²,deg/s,deg/s,deg/s"]
-    lines += rows(np.arange(N) + 1, np.zeros(N), 1000 * log[2], np.degrees(log[1]))
-    agrees(read_recording(written(tmp_path / "log.csv", lines)), log, accel=1e-4)
+    agrees(read_recording(nexus(tmp_path, log)), log, accel=1e-4)
 
 
 # A word in each row that says whose sample it is

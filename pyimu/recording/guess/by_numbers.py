@@ -17,19 +17,15 @@ from pyimu.recording.naming.triads import are_alike, others
 UNIT_LENGTH = 0.02
 """By how much the length of a quaternion of few digits may be off one."""
 
-
 EXACT = 1e-5
 """No sensor at rest stays so near to one: what does is written so, such as an attitude at rest."""
-
 
 SAME_SIZE = 1e-3
 """By how much the size of a direction of few digits may differ from row to row."""
 
-
 TURNED = 0.5
 """How far a vector of one size must go, as a part of it, for its size to be no sensor's: whoever
 turns an accelerometer shakes it too."""
-
 
 Picked = list[tuple[int, Name]] | None
 """Positions and names of the three columns of a vector."""

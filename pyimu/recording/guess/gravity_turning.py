@@ -13,11 +13,9 @@ SURE = 0.4
 and an MPU-9150 turned by hand; of a car, a pendulum and a board waved by hand it then gave the
 right unit, and none of a wand that is swung, of fast shifts by hand and of a log at rest."""
 
-
 BLOCKS = (0.04, 0.1, 0.2, 0.5, 1.0)
 """s; over so long means the turning of gravity is compared with the rate: fast turns need short
 ones, slow turns long ones, and of all that counts in which the two agree best."""
-
 
 TRIES = 8
 """Steps of Newton's method to the scale of a gyro, at most."""

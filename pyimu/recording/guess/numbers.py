@@ -12,40 +12,31 @@ from pyimu.units import STANDARD_GRAVITY, parse
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "day": 86400.0}
 """Units in which clocks count, and the serial dates of spreadsheets."""
 
-
 USUAL = (8.0, 8000.0)
 """Hz; three decades, within which most inertial sensors are sampled: of units a factor of 1000
 apart one fits where a clock is off by far."""
 
-
 POSSIBLE = (4.0, 10000.0)
 """Hz; a clock that two units bring in here may be in either: 5 Hz in s are 5 kHz in ms."""
-
 
 SLOWEST = 0.01
 """Hz; a unit in which a log would be slower is not worth a word."""
 
-
 EPOCH = (946684800.0, 4102444800.0)
 """s since 1970 of the years 2000 and 2100: so large a time is a date, and tells its unit."""
-
 
 SERIAL = 25569.0
 """Days from the first of spreadsheets, 1899-12-30, to 1970."""
 
-
 NEAR_GRAVITY = 0.1
 """By how much the size of gravity may be off where a sensor rests."""
-
 
 LEAST_MIDDLE = 512.0
 """The middle of the numbers of a converter of ten bits."""
 
-
 TURNED_MIDDLE = 0.25
 """By how much all three axes may be off the middle: gravity on one is a fifth of it, as on ADXL335
 with OpenSignals' converter."""
-
 
 FASTEST = 100.0
 """rad/s; hands, vehicles and robots do not turn as fast: larger numbers are degrees a second."""
@@ -54,10 +45,8 @@ FASTEST = 100.0
 WARM, WARM_K = (-40.0, 125.0), (233.15, 398.15)
 """degC and K within which electronics are specified to work."""
 
-
 WRAP = 0.05
 """How near to a whole turn a step of an angle must come to be one that is counted anew."""
-
 
 SENSITIVITIES = {
     **dict.fromkeys((262.4, 131.0, 65.5, 32.8, 16.4), "InvenSense and Bosch"),
@@ -68,21 +57,17 @@ SENSITIVITIES = {
 """Counts a deg/s of gyros, and whose (data sheets of MPU-6050, BMI160, LSM6DSO, L3GD20, ADIS16405,
 ADIS16448, ADIS16470, ADIS16480 and ADIS16495-1 to -3; TSND151)."""
 
-
 COUNTS_A_G = {
     k: f" (Analog Devices, {1000 / k:g} mg/LSB)" for k in (800.0, 1200.0, 1250.0, 4000.0)
 } | {10000.0: " (0.1 mg/LSB)"}
 """Counts a g of accelerometers beside powers of two, and whose (data sheets of ADIS16470,
 ADIS16448, ADIS16480 and ADIS16495; TSND151)."""
 
-
 FITS = 0.25
 """By how much a sensitivity may differ from what gravity's turning shows."""
 
-
 CLEARLY = 2.0
 """How many times as far off, in logarithms, the next sensitivity must be for one to be taken."""
-
 
 TURN = 361.0
 """deg; no pitch has more, however it is counted."""
