@@ -19,7 +19,8 @@ from pyimu.identification.conclude import conclude, weightless
 from pyimu.identification.fit.keys import Coefficient, Key, coefficient_of
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.structure import prior_of
-from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trials import accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.memory import less_than_memory, remembered
 from pyimu.identification.formula.search import Look, look
