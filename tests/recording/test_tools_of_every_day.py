@@ -165,6 +165,7 @@ def test_a_temperature_beside_a_stated_rate_is_no_misspelling(log, tmp_path):
         (1024.0, 1024),
         (16384.0, 16384),
         (10003.0, 10000),
+        (9806.0, 9807),  # mm/s^2
         (6000.0, None),
     ],
 )
@@ -174,6 +175,33 @@ def test_counts_of_a_g(size, counts):
     found = force_unit(np.rint(noise + [0, 0, size]))
     assert (None if found.value is None else round(1 / found.value)) == counts
     assert [round(1 / s) for s in found.sizes] == ([4096, 4000] if size == 4050 else [])
+
+
+@pytest.mark.parametrize("lsb, off", [(1000 * np.pi / 180, 1.004), (1000, 0.996), (16.4, 1.02)])
+def test_whole_numbers_that_programs_write(lsb, off):
+    """Of mrad/s the 16.4 counts a deg/s of InvenSense had been taken."""
+    assert sensitivities(lsb * off).value == pytest.approx(1 / lsb)
+
+
+@pytest.mark.parametrize(
+    "tick, first, size",
+    [
+        ("Ticks", 638424000000000000, 1e-7),  # .NET's, since the year 1
+        ("FileTime", 133512736520000000, 1e-7),  # Windows', since 1601
+    ],
+)
+def test_ticks_of_100_ns(tick, first, size, log, tmp_path):
+    """They had been taken for us, at a tenth of the rate."""
+    stamps = [str(first + round(t / size)) for t in log[0]]
+    head = ",".join([tick, *(f"{v}{a}" for v in ("Acc", "Gyr") for a in "XYZ")])
+    lines = [head, *rows(stamps, log[2], log[1])]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines), tmp_path), log)
+
+
+def test_numbers_near_1000_may_be_cm_a_second_squared():
+    noise = np.random.default_rng(4).normal(0, 1, (3000, 3))
+    assert "cm/s^2" in force_unit(noise + [0, 0, 980.4]).why
+    assert "cm/s^2" not in force_unit(noise + [0, 0, 1003.0]).why
 
 
 @pytest.mark.parametrize("lsb", [10, 20, 25, 40, 160, 100, 16.4, 65.5, 131])

@@ -50,10 +50,11 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
     for other, _, its in candidates:
         if other != k:
             found.notes.append(f"{reader.header[other]} may be the time, too ({its.why})")
-    found.add([Guess(reader.header[k], "time", guess.unit, guess.why)])
+    found.add([Guess(reader.header[k], "time", guess.unit, guess.why, guess.value)])
     if k in clocks and not rises(values):  # whole seconds, which reading divides among their rows
         return 1 / (_mean_rate(values) or 1.0)
-    return None if guess.unit is None else _period(values) * SECONDS[guess.unit]
+    one = SECONDS.get(guess.unit or "", 0.0) * (guess.value or 1.0)
+    return _period(values) * one or None
 
 
 def _mean_rate(values: np.ndarray) -> float | None:

@@ -25,6 +25,10 @@ SLOWEST = 0.01
 EPOCH = (946684800.0, 4102444800.0)
 """s since 1970 of the years 2000 and 2100: so large a time is a date, and tells its unit."""
 
+TICK = 1e-7
+TICKS = {62_135_596_800.0: ".NET's ticks", 11_644_473_600.0: "Windows' file times"}
+"""s; in which some programs count, and how long before 1970 they begin."""
+
 SERIAL = 25569.0
 """Days from the first of spreadsheets, 1899-12-30, to 1970."""
 
@@ -59,9 +63,15 @@ ADIS16448, ADIS16470, ADIS16480 and ADIS16495-1 to -3; TSND151)."""
 
 COUNTS_A_G = {
     k: f" (Analog Devices, {1000 / k:g} mg/LSB)" for k in (800.0, 1200.0, 1250.0, 4000.0)
-} | {10000.0: " (0.1 mg/LSB)"}
+} | {10000.0: " (0.1 mg/LSB)", 9806.65: " (mm/s^2)"}
 """Counts a g of accelerometers beside powers of two, and whose (data sheets of ADIS16470,
 ADIS16448, ADIS16480 and ADIS16495; TSND151)."""
+
+WRITTEN = {1000 * np.pi / 180: "mrad/s", 1000.0: "mdeg/s"}
+"""Whole numbers a deg/s of units that programs write."""
+
+WRITTEN_FITS = 0.015
+"""By how much these may be off: 17.45 is 6 % off the 16.4 that gyros have."""
 
 FITS = 0.25
 """By how much a sensitivity may differ from what gravity's turning shows."""
@@ -105,8 +115,12 @@ def time_unit(time: np.ndarray) -> UnitGuess:
         if unit == "day":
             since, slowest = (first - SERIAL) * size, POSSIBLE[0]
         if EPOCH[0] < since < EPOCH[1] and slowest <= rates[unit] <= 1e6:
-            year = int(1970 + since / 31556952)
-            return UnitGuess(unit, f"a date of {year}, at {rates[unit]:.4g} Hz")
+            return UnitGuess(unit, f"a date of {_year(since)}, at {rates[unit]:.4g} Hz")
+    for before, whose in TICKS.items():
+        since, hertz = first * TICK - before, 1 / (median * TICK)
+        if EPOCH[0] < since < EPOCH[1] and hertz <= 1e6:
+            why = f"a date of {_year(since)} in {whose} of 100 ns, at {hertz:.4g} Hz"
+            return UnitGuess("s", why, TICK)
     if np.all(step == 1):
         return UnitGuess(None, "whole numbers one apart: a counter of samples, or times")
     possible = [unit for unit, rate in rates.items() if POSSIBLE[0] <= rate < POSSIBLE[1]]
@@ -117,6 +131,11 @@ def time_unit(time: np.ndarray) -> UnitGuess:
     slower = [f"{r:.4g} Hz in {u}" for u, r in rates.items() if SLOWEST <= r < POSSIBLE[0]]
     other = f" ({slower[0]})" if slower else ""
     return UnitGuess(unit, f"steps of {median:.4g} are {rates[unit]:.4g} Hz then{other}")
+
+
+def _year(since: float) -> int:
+    """The year of a time s since 1970."""
+    return int(1970 + since / 31556952)
 
 
 def warmth_unit(warmth: np.ndarray) -> UnitGuess:
@@ -151,7 +170,9 @@ def force_unit(force: np.ndarray) -> UnitGuess:
         if abs(size / one - 1) < NEAR_GRAVITY:
             if unit == "mg" and _is_power(size) and counts(force.ravel()):
                 continue
-            return UnitGuess(unit, f"gravity is {size:.4g} then")
+            near = unit == "mg" and abs(size / (100 * STANDARD_GRAVITY) - 1) < WRITTEN_FITS
+            other = f"; were they cm/s^2 it would be {size / 100:.4g} m/s^2" if near else ""
+            return UnitGuess(unit, f"gravity is {size:.4g} then{other}")
     if counts(force.ravel()) and size > 100:
         return _counts_a_g(size)
     return UnitGuess(None, f"gravity is {size:.4g}, in no usual unit (does the log hold it?)")
@@ -297,11 +318,13 @@ def sensitivities(lsb: float) -> UnitGuess | None:
 
     Of two that fit the nearer is taken where that is clear, and the other is said; else both are.
     """
-    off = {k: abs(float(np.log(lsb / k))) for k in SENSITIVITIES}
+    own = {k: said for k, said in WRITTEN.items() if abs(lsb / k - 1) < WRITTEN_FITS}
+    known = {**SENSITIVITIES, **own}
+    off = {k: abs(float(np.log(lsb / k))) for k in known}
     near = sorted((k for k in off if abs(lsb / k - 1) < FITS), key=off.__getitem__)[:2]
     if not near:
         return None
-    names = [f"{k:.4g} ({SENSITIVITIES[k]})" for k in near]
+    names = [f"{k:.4g} ({known[k]})" for k in near]
     why = f"gravity's turning shows {lsb:.3g} counts a deg/s: {' or '.join(names)}"
     if len(near) > 1 and off[near[1]] < CLEARLY * off[near[0]]:
         return UnitGuess(None, why, sizes=tuple(1 / k for k in near))

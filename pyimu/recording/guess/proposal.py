@@ -67,7 +67,7 @@ def _seconds(found: Proposal, numbers: Numbers) -> np.ndarray | None:
     if own is None or own.unit not in SECONDS:
         return None
     values = Unwrapped(*SECONDS.values()).add(numbers.of([found.header.index(own.cell)]))
-    return values.astype(float) * SECONDS[own.unit]
+    return values.astype(float) * SECONDS[own.unit] * (own.value or 1.0)
 
 
 def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = None) -> Proposal:
