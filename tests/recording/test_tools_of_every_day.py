@@ -291,6 +291,7 @@ def mixed(log, head, words, form="{time},{word},{values}"):
     [
         ("timestamp (ms),sensor,x,y,z", ("GYR", "ACC"), "{time},{word},{values}"),
         ("", ("Gyroscope", "Accelerometer"), "{word},{time},{values}"),
+        ("ms,sensor_type,x,y,z", ("4", "1"), "{time},{word},{values}"),  # Android's
         ("type;ms;x;y;z", ("gyroscope", "accelerometer"), "{word};{time};{values}"),
         (
             "",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 
@@ -18,6 +19,12 @@ LEAST = 0.5
 
 KINDS = ("gyro", "accel", "mag")
 """What a word may be for; the rows of the first that is there are the log's own."""
+
+
+ANDROID = {"1": "accelerometer", "2": "magnetometer", "4": "gyroscope"}
+"""Android's numbers of sensors (Sensor.TYPE_ACCELEROMETER and so on), in a column that is called
+so: ``type``, ``sensor_type``.
+"""
 
 
 def rows_by_word(lines: Sequence[str], topic: str = "") -> Marked | None:
@@ -50,14 +57,19 @@ def _words(cells: Sequence[Sequence[str]], at: int) -> list[str]:
     no such rows.
     """
     tail = cells[len(cells) // 2 :]
+    head = "".join(cells[0][at : at + 1]) if cells else ""
+    numbered = {"type", "sensor"} & set(re.findall("[a-z]+", head.casefold()))
     said = Counter(
         row[at]
         for row in tail
-        if len(row) > at + 3 and not is_number(row[at]) and sum(map(is_number, row)) >= 3
+        if len(row) > at + 3
+        and (not is_number(row[at]) or numbered and row[at] in ANDROID)
+        and sum(map(is_number, row)) >= 3
     )
     if len(said) < 2 or sum(said.values()) < LEAST * len(tail):
         return []
-    sure = {word: {kind: _sureness(named(word), kind) for kind in KINDS} for word in said}
+    names = {word: named(ANDROID.get(word, word)) for word in said}
+    sure = {w: {kind: _sureness(name, kind) for kind in KINDS} for w, name in names.items()}
     found = [max(sure, key=lambda word: sure[word][kind]) for kind in KINDS]
     found = [w for w, kind in zip(found, KINDS, strict=True) if sure[w][kind] > 0]
     certain = any(sure[w][kind] > 1 for w in found for kind in ("gyro", "accel"))
@@ -75,6 +87,7 @@ def _names(cells: Sequence[Sequence[str]], at: int, own: str, width: int) -> tup
     head = cells[0]
     if len(head) == width and not any(map(is_number, head)) and head[at] != own:
         alone = [not named(name).words or name.casefold().startswith("value") for name in head]
+        own = ANDROID.get(own, own)
         return tuple(f"{own} {n}" if a else n for n, a in zip(head, alone, strict=True))
     names = [f"column {k + 1}" for k in range(width)]
     if width == 5:
