@@ -401,7 +401,7 @@ def test_of_two_sizes_of_a_count_that_fit_the_user_chooses(tmp_path):
         [114.286, 131.0], abs=1e-3
     )
     assert "114.3 (ST, 8.75 mdps/LSB)" in guess.why and "131 (InvenSense" in guess.why
-    assert sensitivities(1000.0) is None
+    assert sensitivities(600.0) is None
     time, gyro, accel = turned()
     log = raw_logs.text(
         tmp_path / "raw.csv",
