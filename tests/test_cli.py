@@ -729,8 +729,10 @@ def write_rest(path):
 @pytest.mark.parametrize("library", [lambda name: object(), lambda name: ctypes.c_int("no path")])
 def test_a_c_library_that_keeps_memory_in_its_own_way_is_left_alone(library, monkeypatch):
     """Of musl and macOS there is no such function, on Windows no such library."""
-    monkeypatch.setattr(ctypes, "CDLL", library)
+    asked = []
+    monkeypatch.setattr(ctypes, "CDLL", lambda name: asked.append(name) or library(name))
     keep_freed()
+    assert asked == [None]
 
 
 def test_version():

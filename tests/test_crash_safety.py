@@ -17,7 +17,7 @@ from places import CHECKOUT, linked
 
 from pyimu.errors import UserError
 from pyimu.files import PREFIX, whole
-from pyimu.held import Held, work_folder
+from pyimu.files.held import Held, work_folder
 
 KILLED = Path(__file__).parent / "support" / "killed.py"
 
@@ -73,7 +73,7 @@ def test_every_command_that_has_a_folder_for_results_is_killed_and_held():
 HOLDER = """
 import sys
 from pathlib import Path
-from pyimu.held import held
+from pyimu.files.held import held
 with held.holding():
     held.hold(Path(sys.argv[1]))
     print("held", flush=True)

@@ -11,7 +11,7 @@ import pytest
 from places import same_path
 
 from pyimu import cli
-from pyimu.interrupt import LOOK, Interrupt, Interrupts
+from pyimu.cli.interrupt import LOOK, Interrupt, Interrupts
 
 PATIENCE = 30.0
 """s; within which a lost interrupt comes again on the busiest machine."""
@@ -144,7 +144,7 @@ def test_what_the_system_refuses_is_no_bug(error, says, monkeypatch, capsys):
 
 AT_EXIT = """
 import atexit, signal, sys
-from pyimu.interrupt import ignore_at_exit
+from pyimu.cli.interrupt import ignore_at_exit
 atexit.register(signal.raise_signal, signal.SIGINT)
 try:
     exec("signal.raise_signal(signal.SIGINT)")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from pyimu.laws import beta, chi2, f, norm, t
+from pyimu.numerics.laws import beta, chi2, f, norm, t
 
 DF = np.array([0.3, 1.0, 2.0, 7.5, 40.0, 3000.0])
 X = np.array([1e-3, 0.5, 1.0, 20.0, 900.0])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pyimu.positive import cholesky, solve
+from pyimu.numerics.positive import cholesky, solve
 
 
 @pytest.mark.parametrize("p", [1, 2, 5])

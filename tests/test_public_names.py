@@ -10,8 +10,8 @@ import pytest
 from shown_files import driven, indoors, square, still
 
 import pyimu
-from pyimu.brief import in_short
-from pyimu.silent import silent
+from pyimu.display.brief import in_short
+from pyimu.display.silent import silent
 
 LONGEST = 420
 """Characters of a ``repr``: a part with all effects of a specimen."""

@@ -5,7 +5,7 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from pyimu import Recording, ins
-from pyimu.threads import on_one_thread
+from pyimu.numerics.threads import on_one_thread
 
 
 def threads():

@@ -16,9 +16,9 @@ from pyimu.attitude.columns import (
 from pyimu.attitude.driven import recorded_speed
 from pyimu.attitude.filter.variables import EXTRA_INPUTS
 from pyimu.attitude.retiming import Retiming
+from pyimu.display.silent import silent
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
-from pyimu.silent import silent
 
 LONGEST_GAP = 60.0
 """s; of a gap so much becomes missing samples, by which the attitude is lost; over the rest of it

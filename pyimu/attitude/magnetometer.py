@@ -10,7 +10,7 @@ import numpy as np
 from pyimu.attitude.calibration import MagnetometerCalibration
 from pyimu.attitude.filter.variables import USUAL
 from pyimu.attitude.world_field import WorldField
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.errors import Finding
 from pyimu.recording.quality.field_axes import field_findings
 from pyimu.recording.quality.gyro_axes import gyro_findings

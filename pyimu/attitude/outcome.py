@@ -18,7 +18,7 @@ from pyimu.attitude.magnetometer import Magnetometer
 from pyimu.attitude.reference_reading import reference_findings
 from pyimu.attitude.rest import Rest, gravity_findings
 from pyimu.errors import Finding
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
 

@@ -10,7 +10,7 @@ from scipy.special import fdtri
 
 from pyimu.attitude.filter.prediction import DRIVES
 from pyimu.attitude.filter.stillness import FAST, SHARE, SLOW, swaying_density
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.errors import Finding
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import still_rows

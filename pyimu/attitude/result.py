@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyimu import notebook
 from pyimu.attitude.outcome import Outcome
 from pyimu.attitude.report.as_json import contents
 from pyimu.attitude.report.page import TABLE, page
 from pyimu.attitude.report.pictures import angles_picture, whole_figure
 from pyimu.attitude.report.terminal import in_lines
+from pyimu.display import notebook
 from pyimu.files import staged, write_json, write_text
 from pyimu.recording.formats.suffix import write_table
 

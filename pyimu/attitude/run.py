@@ -40,12 +40,12 @@ from pyimu.attitude.stuck import stuck_times
 from pyimu.attitude.world_field import Date, WorldField, checked_place, world_field
 from pyimu.block.block import Block, Run
 from pyimu.block.parameters import number, with_settings
+from pyimu.display.silent import silent
 from pyimu.errors import Finding, UserError
 from pyimu.model.catalogue import WHITE
 from pyimu.model.part import Part
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.recording import Recording
-from pyimu.silent import silent
 from pyimu.units import STANDARD_GRAVITY
 
 

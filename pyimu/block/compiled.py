@@ -30,7 +30,7 @@ from pyimu.block.prepared import Prepared
 from pyimu.block.straight import straight
 from pyimu.block.vectors import vectors
 from pyimu.errors import UserError
-from pyimu.held import work_folder
+from pyimu.files.held import work_folder
 
 SAME_BITS = (
     "-std=c11",

@@ -31,8 +31,8 @@ from pyimu.characterization.spectrum.lines import Line
 from pyimu.characterization.store import Store
 from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.warm_up import WarmUp, find_warm_up
-from pyimu.laws import chi2
-from pyimu.silent import silent
+from pyimu.display.silent import silent
+from pyimu.numerics.laws import chi2
 
 POINTS = 100
 """Cluster times of a curve, evenly spaced in the logarithm; those an octave apart are added."""

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyimu.brief import Brief
 from pyimu.characterization.allan.readings import Floor
 from pyimu.characterization.evidence import Evidence
 from pyimu.characterization.noise.coefficients import Coefficient
@@ -19,6 +18,7 @@ from pyimu.characterization.spectrum.lines import Line
 from pyimu.characterization.spectrum.psd import Psd
 from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.warm_up import WarmUp
+from pyimu.display.brief import Brief
 from pyimu.errors import Finding
 from pyimu.model.part import AXES, Part
 

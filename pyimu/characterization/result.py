@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pyimu import notebook
 from pyimu.characterization.outcome import SI, Outcome
 from pyimu.characterization.report.as_json import contents
 from pyimu.characterization.report.as_part import part_of
 from pyimu.characterization.report.page import MAGNETOMETER, PART, in_notebook, page
 from pyimu.characterization.report.pictures.allan import whole_figure
 from pyimu.characterization.report.terminal import in_lines
+from pyimu.display import notebook
 from pyimu.files import staged, write_json, write_text
 from pyimu.model.part import Part
 from pyimu.model.part_file import save_part

@@ -22,15 +22,15 @@ from pyimu.characterization.result import Characterization
 from pyimu.characterization.sensor import SensorAnalysis
 from pyimu.characterization.shocks import without_shocks
 from pyimu.characterization.store import Store
+from pyimu.display.silent import silent
 from pyimu.errors import Finding, UserError
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
+from pyimu.numerics.threads import on_one_thread
 from pyimu.recording.log import Given, Log, is_one, open_log, recording_of
 from pyimu.recording.names import distinct_names
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import joined
-from pyimu.silent import silent
-from pyimu.threads import on_one_thread
 
 if TYPE_CHECKING:
     from pyimu.characterization.magnetometer.estimate import MagnetometerFit

@@ -14,8 +14,8 @@ import numpy as np
 
 from pyimu.characterization.samples import PIECE, Samples
 from pyimu.errors import Finding
-from pyimu.laws import norm
 from pyimu.model.part import AXES
+from pyimu.numerics.laws import norm
 from pyimu.recording.rest import ONE_SHOCK, RARE, SECOND
 
 CHANCE = 1e-3

@@ -18,6 +18,7 @@ from pyimu.cli.bugs import said_of
 from pyimu.cli.campaigns import campaign_command
 from pyimu.cli.heading import heading_command
 from pyimu.cli.inspect import inspect_command
+from pyimu.cli.interrupt import Interrupts, ignore_at_exit
 from pyimu.cli.logs import characterize_command, close_command, demo
 from pyimu.cli.memory import keep_freed
 from pyimu.cli.models import (
@@ -31,8 +32,7 @@ from pyimu.cli.models import (
 )
 from pyimu.cli.navigation import navigate_command
 from pyimu.errors import UserError, printable
-from pyimu.held import held
-from pyimu.interrupt import Interrupts, ignore_at_exit
+from pyimu.files.held import held
 
 # The matrices here are small: BLAS threads would wait for each other longer than they compute.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -24,7 +24,7 @@ from pyimu.derivations.process_noise.random_walk import STILL, TURNING
 from pyimu.derivations.process_noise.random_walk_axes import AXES
 from pyimu.derivations.process_noise.transition import TRANSITION
 from pyimu.derivations.result import Derived
-from pyimu.silent import silent
+from pyimu.display.silent import silent
 
 __all__ = ["DERIVATIONS", "Derived", "Result", "derive"]
 

@@ -20,8 +20,10 @@ from typing import BinaryIO
 from pyimu.block.block import Block
 from pyimu.block.cache import keep, kept_bytes, key_of
 from pyimu.block.compiled import SAME_BITS, ZIG, compiler_command, source_folder
+from pyimu.display.silent import silent
 from pyimu.errors import UserError
 from pyimu.files import whole
+from pyimu.files.held import work_folder
 from pyimu.fmu.sources import (
     CORE,
     DESCRIPTION,
@@ -33,8 +35,6 @@ from pyimu.fmu.sources import (
     template_folder,
     texts,
 )
-from pyimu.held import work_folder
-from pyimu.silent import silent
 
 FLAGS = (
     *SAME_BITS,

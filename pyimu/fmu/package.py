@@ -9,6 +9,7 @@ from pathlib import Path
 from pyimu.attitude.filters import FILTERS
 from pyimu.attitude.heading.estimator import heading_estimator
 from pyimu.block.block import Block
+from pyimu.display.silent import silent
 from pyimu.errors import UserError
 from pyimu.files import check_folder
 from pyimu.fmu.build import FORMS, build_fmus, part_of
@@ -18,7 +19,6 @@ from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.plant.low_pass import low_pass
 from pyimu.plant.rover_drive import rover_drive
-from pyimu.silent import silent
 
 SENSOR = "sensor"
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.heading.calibration import Calibration
 from pyimu.heading.filter import HeadingTrack
 from pyimu.heading.statistics import Statistics, paired

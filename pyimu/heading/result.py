@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.brief import FEW
+from pyimu.display.brief import FEW
 from pyimu.files import plain, staged, write_json, write_text
 from pyimu.heading.outcome import Outcome, Track
 from pyimu.heading.report.page import TABLE, page

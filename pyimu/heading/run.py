@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
+from pyimu.display.silent import silent
 from pyimu.errors import UserError
 from pyimu.heading.calibration import Calibration, self_calibrate
 from pyimu.heading.filter import HeadingFilter, HeadingTrack, compensated
@@ -27,7 +28,6 @@ from pyimu.recording.clock import runs
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.rest import SECOND
-from pyimu.silent import silent
 from pyimu.units import did_you_mean
 
 START_UP = 20.0

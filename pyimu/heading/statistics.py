@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.laws import chi2, norm, t
+from pyimu.numerics.laws import chi2, norm, t
 
 LEVEL = 0.95
 """Probability of the intervals."""

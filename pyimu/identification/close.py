@@ -13,12 +13,14 @@ from pathlib import Path
 
 import numpy as np
 
+from pyimu.display.silent import silent
 from pyimu.errors import Finding, UserError
 from pyimu.identification.conclude import conclude, weightless
 from pyimu.identification.fit.keys import Coefficient, Key, coefficient_of
 from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.structure import prior_of
-from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trials import accel_trial, gyro_trial
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.memory import less_than_memory, remembered
 from pyimu.identification.formula.search import Look, look
@@ -63,6 +65,7 @@ from pyimu.model.part_file import part as find_part
 from pyimu.model.part_file import part_names
 from pyimu.model.part_reader import parse_part
 from pyimu.model.sensor import Sensor
+from pyimu.numerics.threads import on_one_thread
 from pyimu.recording.folders import truth_beside
 from pyimu.recording.log import Given, is_one, recording_of
 from pyimu.recording.names import distinct_names
@@ -74,8 +77,6 @@ from pyimu.recording.reference.held import held_apart
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.rest import is_at_rest
 from pyimu.report.numbers import joined
-from pyimu.silent import silent
-from pyimu.threads import on_one_thread
 
 SLOWEST = 1.0
 """s; from row to row of a log that moves: a hand or a vehicle turns to and fro in less."""

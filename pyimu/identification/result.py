@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pyimu import notebook
+from pyimu.display import notebook
+from pyimu.display.silent import silent
 from pyimu.errors import UserError
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.report.deliver import deliver
@@ -16,7 +17,6 @@ from pyimu.identification.report.errors import whole_figure
 from pyimu.identification.report.terminal import in_lines
 from pyimu.identification.report.words import headline
 from pyimu.report.numbers import joined
-from pyimu.silent import silent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

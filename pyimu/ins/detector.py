@@ -17,7 +17,7 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from scipy.spatial.transform import Rotation
 
 from pyimu.ins.short_rests import between_swings
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 from pyimu.recording.clock import runs
 from pyimu.units import STANDARD_GRAVITY
 

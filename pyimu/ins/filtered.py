@@ -9,7 +9,7 @@ import numpy as np
 
 from pyimu.attitude.input_grid import InputGrid, Piece
 from pyimu.block.block import Block, Run
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.ins.filter.layout import POSITION, Layout
 from pyimu.ins.filter.variables import OUTPUTS
 from pyimu.ins.track import Track

@@ -13,6 +13,7 @@ from pyimu.attitude.beyond_range import by_axis
 from pyimu.attitude.columns import latitude_of
 from pyimu.attitude.contradicted import contradicted, without
 from pyimu.block.parameters import number
+from pyimu.display.silent import silent
 from pyimu.errors import Finding, UserError
 from pyimu.ins import checks
 from pyimu.ins.askew_limit import with_equal_limits
@@ -45,12 +46,11 @@ from pyimu.ins.track import Reference, Track, reference_of
 from pyimu.ins.vibration import Samples, faster
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
+from pyimu.numerics.threads import on_one_thread
 from pyimu.recording.clock import runs
 from pyimu.recording.log import Given, recording_of
 from pyimu.recording.quality.inspect import rate_of_part
 from pyimu.recording.recording import Recording
-from pyimu.silent import silent
-from pyimu.threads import on_one_thread
 from pyimu.units import STANDARD_GRAVITY, did_you_mean
 
 METHODS = ("paper", "strapdown", "filter", "smoother")

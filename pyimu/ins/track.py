@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.recording.recording import Recording
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pyimu import notebook
+from pyimu.display import notebook
 from pyimu.errors import UserError
 from pyimu.files import check_folder, shortened, staged, write_json, write_text
 from pyimu.inspection.next_step import next_step

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from pyimu.display.silent import silent
 from pyimu.errors import UserError
 from pyimu.files import parse_toml, read_toml
 from pyimu.inspection.result import Inspection
@@ -16,19 +17,18 @@ from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.guessed import Guess, Proposal
-from pyimu.recording.guess.names import named
 from pyimu.recording.guess.proposal import ZEROS, forces, proposed
 from pyimu.recording.guess.writing import MapGiven, text_of
 from pyimu.recording.known import STATED, is_own, recognised
 from pyimu.recording.log import Log
 from pyimu.recording.made import with_made_columns
+from pyimu.recording.naming.name import named
 from pyimu.recording.optical import question
 from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import is_at_rest, rests
 from pyimu.recording.rows import Source
-from pyimu.silent import silent
 
 Given = str | os.PathLike
 
@@ -57,6 +57,8 @@ def inspect(
     readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
     readers, foreign = _with_made_columns(readers, foreign)
     known = None if foreign is not None else recognised(readers[0])
+    if foreign is None and known is None and len(readers) == 1:
+        readers += [open_reader(given[0], {"imu": topic}) for topic in readers[0].words]
     maps = [_own_map(reader, foreign, index) for index, reader in enumerate(readers)]
     kind = _kind(readers[0], known is not None, foreign is not None)
     guessed = None in maps and (foreign is None or not foreign.columns)

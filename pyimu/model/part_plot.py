@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyimu import notebook
+from pyimu.display import notebook
 from pyimu.errors import UserError
 from pyimu.model.deviations import flicker_floor, law_deviation
 from pyimu.model.law import Law

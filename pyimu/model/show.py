@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyimu import notebook
+from pyimu.display import notebook
 from pyimu.model.part_entry import FigureScale
 from pyimu.model.sensor import Sensor
 

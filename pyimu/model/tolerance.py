@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.errors import UserError
 from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE

@@ -17,8 +17,10 @@ from pyimu.recording.columns import XYZ
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.whole_force import FORCE, WholeForceReader
-from pyimu.recording.guess.names import TRUTHS, named, surest, triads, vectors
 from pyimu.recording.guess.numbers import time_unit
+from pyimu.recording.naming.name import named
+from pyimu.recording.naming.triads import surest, triads, vectors
+from pyimu.recording.naming.words import TRUTHS
 from pyimu.recording.vectors import triad_map, unnamed
 from pyimu.units import parse
 

@@ -17,8 +17,10 @@ from pyimu.recording.column_map import BODY, ForeignMap
 from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
 from pyimu.recording.formats.oxts import CLOCK, TIME, is_oxts
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.guess.names import TRUTHS, named, others, surest, thermometer, triads
 from pyimu.recording.messages import imu_message, pose_message
+from pyimu.recording.naming.name import named, thermometer
+from pyimu.recording.naming.triads import others, surest, triads
+from pyimu.recording.naming.words import TRUTHS
 from pyimu.recording.optical import optical_body
 from pyimu.recording.programs import PROGRAMS
 from pyimu.recording.vectors import triad_map, unnamed

@@ -24,8 +24,9 @@ from pyimu.recording.columns import XYZ
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.lines import lines
 from pyimu.recording.formats.text import CsvReader
-from pyimu.recording.guess.names import named, surest, triads
 from pyimu.recording.guess.numbers import SECONDS
+from pyimu.recording.naming.name import named
+from pyimu.recording.naming.triads import surest, triads
 from pyimu.units import parse
 
 GYROS = ("Gyroscope.csv", "GyroscopeUncalibrated.csv")

@@ -14,6 +14,7 @@ from pyimu.recording.counts import Scale
 from pyimu.recording.formats.layout import FAR
 from pyimu.recording.formats.marked import GNSS_LOGGER
 from pyimu.recording.formats.reader import Reader
+from pyimu.recording.formats.sections import EMPATICA
 from pyimu.recording.hyper_imu import hyper_imu
 from pyimu.recording.novatel import novatel
 from pyimu.recording.vectors import triad_map
@@ -223,12 +224,21 @@ def vectornav_table(reader: Reader) -> ForeignMap | None:
     return ForeignMap(columns=columns, body=BODY["frd"])
 
 
+def empatica(reader: Reader) -> ForeignMap | None:
+    """Empatica's E4, ACC.csv (E4 connect, "info.txt"): 64 counts a g; its rate stands above."""
+    if tuple(reader.header) != EMPATICA or reader.rate is None:
+        return None
+    scale = {f"accel_{a}": Scale(1 / 64, parse("g")) for a in XYZ}
+    return ForeignMap(columns=triad_map(list(EMPATICA), "accel", "count"), scale=scale)
+
+
 PROGRAMS: tuple[tuple[str, Callable[[Reader], ForeignMap | None]], ...] = (
     ("Gyroflow's log, by its description", gyroflow),
     ("GnssLogger, by its description", gnss_logger),
     ("OpenLog Artemis, by its firmware", open_log),
     ("imu.txt of a bag, by its names", bag_text),
     ("RoNIN, by its description", ronin),
+    ("Empatica E4, by its description", empatica),
     ("nuScenes' CAN bus, by its description", nuscenes),
     ("VectorNav's binary output, by its manuals", vectornav_table),
     ("PX4's sensor_combined, by its definition", px4_table),

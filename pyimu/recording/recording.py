@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pyimu import notebook
+from pyimu.display import notebook
 from pyimu.errors import Finding, UserError
 from pyimu.recording import show
 from pyimu.recording.clock import Cadence, cadence_of, segments

@@ -125,7 +125,9 @@ class Source:
             reader.crowded or is_known,
             reader.skipped,
             wanted,
-            reader.header,
+            reader.header[
+                : len(names)
+            ],  # without the times of a rate, which are none of the file's
             reader.in_memory,
         )
         header.findings = [*findings, *foreign.notes, *header.findings]

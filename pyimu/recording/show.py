@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyimu import notebook
+from pyimu.display import notebook
 from pyimu.recording.columns import GROUPS, column_names
 from pyimu.units import convert
 

@@ -18,6 +18,7 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from pyimu.attitude import run
+from pyimu.display.silent import silent
 from pyimu.files import whole
 from pyimu.identification.close import close
 from pyimu.identification.errors.attitude_error import attitude_error
@@ -35,7 +36,6 @@ from pyimu.report.figures import AFTER, BEFORE, FLOOR, STYLE, legend, svg_of
 from pyimu.report.page import Picture
 from pyimu.rover.drives import Motion, free_drive
 from pyimu.rover.optical import optical_reference
-from pyimu.silent import silent
 
 SAMPLE_RATE = 50.0
 """Hz; the paper samples at 976 Hz and filters at 10 Hz."""

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyimu.display.silent import silent
 from pyimu.heading.result import HeadingResult
 from pyimu.heading.run import METHODS, run
 from pyimu.heading.threshold import TYPICAL
@@ -20,7 +21,6 @@ from pyimu.model.sensor import Sensor
 from pyimu.model.simulate import simulate
 from pyimu.recording.recording import Recording
 from pyimu.rover.indoor import Indoor, indoor
-from pyimu.silent import silent
 
 DEG = np.radians(1.0)
 

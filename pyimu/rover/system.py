@@ -14,12 +14,12 @@ from pyimu.block.parameters import with_values
 from pyimu.block.variables import Variable
 from pyimu.errors import UserError
 from pyimu.files import check_folder
+from pyimu.files.held import work_folder
 from pyimu.fmu.build import build_fmu
 from pyimu.fmu.package import BLOCKS
 from pyimu.fmu.sources import Form
 from pyimu.fmu.ssp import whole_nanoseconds, write_ssp
 from pyimu.fmu.system import Component, System
-from pyimu.held import work_folder
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.plant.rover_drive import end_of_drive

@@ -20,6 +20,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run
+from pyimu.display.silent import silent
 from pyimu.errors import UserError
 from pyimu.identification.close import close
 from pyimu.identification.result import Closed
@@ -36,7 +37,6 @@ from pyimu.rover.optical import optical_reference
 from pyimu.rover.outcome import DriveRuns, Traces
 from pyimu.rover.paper import PAPER_DRIVES, PaperDrive
 from pyimu.rover.result import RoverTests
-from pyimu.silent import silent
 
 METHODS = ("gyros alone", "filter as published", "our filter, loop closed")
 

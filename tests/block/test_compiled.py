@@ -22,7 +22,7 @@ from pyimu.block.normals import normals
 from pyimu.block.stepping import FEW, step_often, step_through
 from pyimu.block.variables import NoiseChannel, Variable
 from pyimu.errors import UserError
-from pyimu.held import FORGOTTEN, PREFIX, work_folder
+from pyimu.files.held import FORGOTTEN, PREFIX, work_folder
 
 CHANNELS = [7, 2**40 + 1]
 

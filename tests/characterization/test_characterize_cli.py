@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from pyimu import Recording
-from pyimu.held import PREFIX
+from pyimu.files.held import PREFIX
 
 ROWS, H = 4000, 0.01
 

@@ -48,9 +48,17 @@ def test_checked_in_page_is_fresh():
     )
 
 
-def test_the_example_runs_as_it_stands():
+def test_the_example_gives_the_deviation_that_it_speaks_of():
+    """Run as it stands: on the octaves behind its corner a flicker's deviation is level, at
+    B sqrt(2 ln 2 / pi) (IEEE Std 952, annex C); its parallel filters are within a tenth of it.
+    """
     code = documentation().partition("```python\n")[2].partition("```")[0]
-    subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
+    code += "\nprint(*model.allan_deviation(tau), part.gyro.values['bias_instability']['B'][0])"
+    run = [sys.executable, "-W", "error", "-c", code]
+    said = subprocess.run(run, check=True, capture_output=True, text=True).stdout
+    *deviations, size = map(float, said.split())
+    assert len(deviations) == 20
+    assert np.max(deviations) == pytest.approx(size * np.sqrt(2 * np.log(2) / np.pi), rel=0.1)
 
 
 def test_one_letter_has_one_meaning():

@@ -106,7 +106,12 @@ def test_toml_that_is_shown_is_a_part_or_a_piece_of_one(page):
     head = 'name = "shown"\nsample_rate = {value = 100.0, unit = "Hz"}\n'
     for language, block in FENCE.findall(text(page)):
         if language == "toml" and re.search(r"^\[(gyro|accel|mag|tolerance)\b", block, re.M):
-            parse_part(block if "sample_rate" in tomllib.loads(block) else head + block)
+            shown = tomllib.loads(block)
+            part = parse_part(block if "sample_rate" in shown else head + block)
+            for kind in ("gyro", "accel", "mag"):
+                declared = getattr(part, kind, None)
+                there = set(declared.values) if declared is not None else set()
+                assert set(shown.get(kind, {})) <= there, (kind, block)
 
 
 def test_every_effect_is_found_by_a_symptom_and_none_that_is_not():
@@ -121,7 +126,7 @@ RUN = {
     "docs/attitude.md": "docs/test_attitude_page.py",
     "docs/close.md": "docs/test_close_page.py",
     "docs/api.md": "docs/test_site.py",  # signatures: the page is what the package says
-    "docs/noise.md": "docs/test_readme.py",
+    "docs/noise.md": "docs/test_noise_page.py",
     "docs/simulators.md": "docs/test_simulators_page.py",
 }
 """Pages with Python, and the test that runs it."""

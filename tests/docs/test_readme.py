@@ -83,11 +83,6 @@ def test_every_block_of_python_runs(as_after_the_commands, capsys):
     assert names["g_sensitivity"].equation == EFFECTS_BY_NAME["g_sensitivity"].equation
 
 
-def test_the_block_of_the_page_on_noise_runs():
-    (block,) = PYTHON.findall((README.parent / "docs" / "noise.md").read_text(encoding="utf-8"))
-    exec(compile(block, "noise.md", "exec"), {})
-
-
 def test_the_sample_of_close_is_what_it_prints(printed):
     """Word for word; a number may differ in the last place or two, as processors and libraries
     round differently. What stands in brackets as (...) is left out of a line.

@@ -5,7 +5,7 @@ import pytest
 from places import measured
 
 import pyimu
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.identification.reference.align import aligned
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 import pyimu
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.identification.reference.clock import measure
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording

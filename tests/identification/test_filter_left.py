@@ -6,7 +6,7 @@ from test_noise_of_places import fitted, scales
 
 from pyimu.identification.fit.keys import LogPlace
 from pyimu.identification.fit.place import STILL_LATE, STILL_SMOOTH
-from pyimu.identification.fit.trial import accel_trial
+from pyimu.identification.fit.trials import accel_trial
 from pyimu.identification.logs.trials import prepared
 from pyimu.recording.reference.unfiltered_places import (
     places_on_time,

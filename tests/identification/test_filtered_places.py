@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation, RotationSpline
 from test_force_of_places import waves
 
 import pyimu
-from pyimu.identification.fit.trial import accel_trial
+from pyimu.identification.fit.trials import accel_trial
 from pyimu.identification.reference.above import with_sensor_above
 from pyimu.identification.reference.place import at_the_point
 from pyimu.identification.reference.unfiltered import with_sharp_places

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 import pyimu
 from pyimu.identification.fit.band import Band
 from pyimu.identification.fit.place import SCALE, UNKNOWN, Place
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.identification.logs.trials import BAND_SHARE
 from pyimu.identification.reference.place import BEYOND
 from pyimu.identification.reference.upright import with_upright_places

@@ -5,7 +5,8 @@ import pytest
 from scipy.ndimage import gaussian_filter1d
 
 import pyimu
-from pyimu.identification.fit.trial import HELD_OUT, gyro_trial
+from pyimu.identification.fit.trial import HELD_OUT
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.recording.recording import Recording
 
 H, N = 0.01, 3e-4

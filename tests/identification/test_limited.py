@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from loop_cases import inputs, noise, trial
 
+from pyimu.identification.fit.bad_rows import repeated
 from pyimu.identification.fit.columns import in_band, residual
 from pyimu.identification.fit.fit import begin
 from pyimu.identification.fit.inputs import LogState
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.limited import with_limited
 from pyimu.identification.fit.maximum_likelihood import fit
-from pyimu.identification.fit.trial import counted, repeated
+from pyimu.identification.fit.trial import counted
 from pyimu.identification.search.as_sampled import ceiling_of
 from pyimu.identification.search.forward import investigate
 from pyimu.model.kinds import OWN

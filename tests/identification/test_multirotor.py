@@ -5,7 +5,7 @@ from scipy.spatial.transform import Rotation, RotationSpline
 
 import pyimu
 from pyimu.identification.fit.sample_noise import band_noise, rest_noise
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.recording.recording import Recording
 
 H, GRAVITY, LATE = 0.005, 9.8, 1.7

@@ -13,7 +13,7 @@ from scipy.stats import f as ratio
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.reference_noise import with_reference_noise
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.identification.search.choice import Tried
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor

@@ -13,7 +13,7 @@ from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.reference_noise import with_reference_noise
-from pyimu.identification.fit.trial import accel_trial
+from pyimu.identification.fit.trials import accel_trial
 from pyimu.identification.logs.trials import prepared
 from pyimu.identification.search.forward import _first
 from pyimu.model.kinds import OWN

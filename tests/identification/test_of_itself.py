@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from turns import turned
 
 import pyimu
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.identification.reference.of_itself import is_of_itself, pulled
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.file import with_reference

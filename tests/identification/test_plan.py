@@ -15,7 +15,7 @@ from pyimu import Part, Sensor, UserError
 from pyimu.cli import app
 from pyimu.identification.fit.fit import begin, gauss_newton, power
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
-from pyimu.identification.fit.trial import accel_trial, gyro_trial
+from pyimu.identification.fit.trials import accel_trial, gyro_trial
 from pyimu.identification.plan.apart import APART, separation
 from pyimu.identification.plan.choice import LONGEST, Chooser, Question
 from pyimu.identification.plan.goals import class_of, wanted_errors

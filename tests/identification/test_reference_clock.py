@@ -12,7 +12,7 @@ from scipy.stats import chi2
 import pyimu
 from pyimu.identification.close import undeclared
 from pyimu.identification.fit.clock import Clock
-from pyimu.identification.fit.trial import accel_trial, gyro_trial
+from pyimu.identification.fit.trials import accel_trial, gyro_trial
 from pyimu.identification.reference.align import LONGEST_OWN, aligned, in_common
 from pyimu.identification.reference.clock import _places, measure
 from pyimu.identification.reference.moving import LEAST_ROWS

@@ -14,7 +14,7 @@ from pyimu.identification.fit.sample_noise import (
     rest_density,
     rest_noise,
 )
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.recording.recording import Recording
 
 H, N = 0.002, 1e-4

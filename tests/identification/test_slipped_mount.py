@@ -5,7 +5,7 @@ import pytest
 import traps
 
 from pyimu.identification.close import undeclared
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.identification.logs.trials import aligned_trials
 from pyimu.recording.recording import Recording
 

@@ -10,7 +10,7 @@ from scipy.stats import chi2
 import pyimu
 from pyimu.identification.fit.high_differences import differences, white_of
 from pyimu.identification.fit.standing import standing
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.recording.recording import Recording
 
 RATE, SECONDS = 100.0, 300.0

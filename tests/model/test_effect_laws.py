@@ -303,7 +303,8 @@ def test_coefficients_at_their_bounds_are_allowed(name, kind):
     for n, q in CATALOGUE[name].parameters.items():
         for bound in (q.minimum, q.maximum, q.start):
             if bound is not None and q.diagonal:
-                Sensor(kind, {name: {n: np.full(q.shape, bound)}})
+                sensor = Sensor(kind, {name: {n: np.full(q.shape, bound)}})
+                np.testing.assert_array_equal(sensor.values[name][n], np.full(q.shape, bound))
 
 
 BEYOND = [

@@ -9,8 +9,9 @@ from scipy.io import savemat
 
 from pyimu import inspect, read_recording
 from pyimu.recording.formats.layout import told_from
-from pyimu.recording.guess.names import named, surest, triads
 from pyimu.recording.guess.numbers import force_unit, warmth_unit
+from pyimu.recording.naming.name import named
+from pyimu.recording.naming.triads import surest, triads
 from pyimu.units import STANDARD_GRAVITY
 
 AXES = "XYZ"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.filled import filled_in, resolution
 from pyimu.recording.reference.rate import reference_rate

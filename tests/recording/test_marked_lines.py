@@ -76,12 +76,6 @@ def test_a_line_that_lost_letters_is_no_sample(tmp_path):
         read_recording(lines_of(tmp_path / "serial.txt", without), columns)
 
 
-def test_a_sample_in_several_lines_is_refused(tmp_path):
-    lines = [t for k in range(60) for t in (f"Acceleration X: {k}, Y: 1", f"Rotation X: {k}, Y: 2")]
-    with pytest.raises(UserError, match="stand in several lines, those of .* have them written in"):
-        read_recording(lines_of(tmp_path / "serial.txt", lines))
-
-
 def test_a_table_with_a_colon_in_it_stays_one(tmp_path):
     path = lines_of(tmp_path / "t.csv", ["note: x", "time [s],gyro_x [rad/s]", "0,1", "1,2"])
     assert open_reader(path).header == ["time [s]", "gyro_x [rad/s]"]

@@ -11,8 +11,8 @@ from test_raw_logs import turned
 from pyimu import inspect, read_recording
 from pyimu.errors import UserError
 from pyimu.recording.formats.suffix import open_reader
-from pyimu.recording.guess.names import named, thermometer
 from pyimu.recording.guess.proposal import proposed
+from pyimu.recording.naming.name import named, thermometer
 
 G = 9.80665
 

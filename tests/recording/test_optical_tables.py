@@ -114,13 +114,16 @@ def test_a_matrix_and_its_transpose_are_opposite_turns():
 
 @pytest.mark.parametrize("write", [motive, vicon, qualisys])
 def test_a_head_that_is_cut_or_spoilt_is_read_or_none(write, tmp_path):
-    """Whatever is missing of it: nothing is raised."""
+    """Whatever is missing of it: nothing is raised, and what is read has names and rows."""
     head = write(tmp_path).read_text().splitlines()[:12]
-    for row in range(len(head)):
-        optical(head[:row])
-        for at in range(0, len(head[row]), 7):
-            for spoilt in (head[row][:at], head[row][:at] + '"' + head[row][at:], "\0"):
-                optical([*head[:row], spoilt, *head[row + 1 :]])
+    tried = [head[:row] for row in range(len(head))]
+    for row, line in enumerate(head):
+        for at in range(0, len(line), 7):
+            for spoilt in (line[:at], line[:at] + '"' + line[at:], "\0"):
+                tried.append([*head[:row], spoilt, *head[row + 1 :]])
+    found = [optical(lines) for lines in tried]
+    assert optical(head) is not None and None in found
+    assert all(table.names and table.first > 1 for table in found if table is not None)
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, 1e300])

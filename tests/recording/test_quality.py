@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from places import measured
 
-from pyimu.identification.fit.trial import bad_samples
+from pyimu.identification.fit.bad_rows import bad_samples
 from pyimu.recording.log import read_recording
 from pyimu.recording.quality.clipping import clipped, clipping_level, touched_level
 from pyimu.recording.quality.inspect import inspect

@@ -16,10 +16,11 @@ from pyimu import Recording, inspect, read_recording
 from pyimu.errors import UserError
 from pyimu.recording.formats.layout import told_from
 from pyimu.recording.formats.suffix import open_reader
-from pyimu.recording.guess.names import named, triads
 from pyimu.recording.guess.numbers import force_unit, rate_unit, sensitivities, time_unit
 from pyimu.recording.guess.proposal import proposed
 from pyimu.recording.log import read_reference
+from pyimu.recording.naming.name import named
+from pyimu.recording.naming.triads import triads
 from pyimu.recording.quality.inspect import rate_of_part
 
 ROUNDED = {"german", "xio", "iphone"}
@@ -400,7 +401,7 @@ def test_of_two_sizes_of_a_count_that_fit_the_user_chooses(tmp_path):
         [114.286, 131.0], abs=1e-3
     )
     assert "114.3 (ST, 8.75 mdps/LSB)" in guess.why and "131 (InvenSense" in guess.why
-    assert sensitivities(1000.0) is None
+    assert sensitivities(600.0) is None
     time, gyro, accel = turned()
     log = raw_logs.text(
         tmp_path / "raw.csv",

@@ -11,9 +11,10 @@ from pyimu import inspect, read_recording
 from pyimu.errors import UserError
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.clock_times import is_clock_time
-from pyimu.recording.guess.names import are_alike, named, triads
 from pyimu.recording.guess.numbers import angle_unit
 from pyimu.recording.log import read_reference
+from pyimu.recording.naming.name import named
+from pyimu.recording.naming.triads import are_alike, triads
 from pyimu.units import STANDARD_GRAVITY
 
 AXES = "XYZ"

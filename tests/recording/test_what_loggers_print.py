@@ -124,14 +124,6 @@ def test_western_letters_are_no_chinese_ones(name, tmp_path):
 
 
 LINES = {
-    "several lines": (
-        [
-            f"\t\tTemperature 25.00 deg C\n\t\tAccel X: {k}.0 \tY: 0.1 \tZ: 9.8 m/s^2 \n"
-            "\t\tGyro X: 0.1 \tY: 0.0 \tZ: 0.0 radians/s \n"
-            for k in range(100)
-        ],
-        "the values of one sample stand in several lines, those of Accel X and Gyro X",
-    ),
     "several samples": (
         [
             "Type,Local Number,Message,Field 1,Value 1,Units 1",
@@ -204,7 +196,8 @@ def test_the_time_between_rows_is_none_and_axes_stand_before_words(vectors, tmp_
 
 
 def test_another_code_is_to_be_saved_as_utf8(tmp_path):
-    text = "時刻,角速度X(deg/s),角速度Y(deg/s),角速度Z(deg/s)\n0,1,2,3\n"
+    """A code that a word for a quantity tells is read."""
+    text = "番号,ひずみX(deg/s),ひずみY(deg/s),ひずみZ(deg/s)\n0,1,2,3\n"
     (tmp_path / "log.csv").write_bytes(text.encode("shift_jis"))
     with pytest.raises(UserError, match="save text in another code as UTF-8"):
         read_recording(tmp_path / "log.csv")

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from pyimu import Recording, inspect, read_recording
-from pyimu.recording.guess.numbers import LIKE, turning_of_gravity
+from pyimu.recording.guess.gravity_turning import LIKE, turning_of_gravity
 from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.quality.inspect import inspect as of_samples
+from pyimu.recording.quality.vehicle_turns import speed_in_turns
 
 DEGREE = 180 / np.pi
 H = 0.01
@@ -69,6 +70,54 @@ def test_a_vehicle_that_hardly_pitches_has_no_gyro_that_is_too_small():
     noise = np.random.default_rng(1).normal(0, 1e-5, (2, 6000, 3))
     found = Recording.from_arrays(time=time, gyro=gyro + noise[0], accel=accel + noise[1])
     assert gyro_findings(found) == ()
+
+
+def driven(seed: int, speed: float, seconds: int = 400) -> Recording:
+    """A vehicle that drives at about ``speed`` m/s and turns to the left and to the right."""
+    rng, n = np.random.default_rng(seed), round(seconds / H)
+    time = H * np.arange(n)
+    v = speed * (1 + 0.3 * np.sin(0.05 * time + seed))
+    knots = np.arange(0, seconds + 4, 4.0)
+    yaw_rate = np.interp(time, knots, rng.normal(0, 0.6 * min(2 / speed, 0.5), len(knots)))
+    zero = np.zeros(n)
+    rate = np.stack([zero, zero, yaw_rate], axis=1) + rng.normal(0, 2e-3, (n, 3))
+    force = np.stack([np.gradient(v, H), v * yaw_rate, 9.81 + zero], axis=1)
+    return Recording.from_arrays(time=time, gyro=rate, accel=force + rng.normal(0, 0.5, (n, 3)))
+
+
+@pytest.mark.parametrize("speed", [5.0, 12.0, 20.0])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_vehicle_s_rates_are_told_by_the_force_in_its_turns(seed, speed):
+    """57 times too small the speed is 57 times too large; gravity alone tells nothing of it."""
+    right = driven(seed, speed)
+    assert speed_in_turns(right.gyro, right.accel, H) == pytest.approx(speed, rel=0.1)
+    assert gyro_findings(right) == ()
+    (found,) = gyro_findings(replace(right, gyro=right.gyro / DEGREE))
+    assert (found.kind, found.detail["factor"]) == ("gyro_unit", pytest.approx(1 / DEGREE))
+
+
+@pytest.mark.parametrize("degrees", [0.1, 0.3])
+def test_what_a_force_does_to_a_gyro_is_no_turn_of_a_vehicle(degrees):
+    """A table that is tilted by 0, 15 and -15 deg, and a gyro of so many deg/s/g."""
+    n = 18_000
+    tilt = np.radians(np.repeat([0, 15, -15, 15, 0, -15], n // 6))
+    force = 9.81 * np.stack([np.sin(tilt), 0 * tilt, np.cos(tilt)], axis=1)
+    rate = np.zeros((n, 3))
+    rate[:, 2] = np.radians(degrees) * force[:, 0] / 9.81
+    noise = np.random.default_rng(6).normal(0, 1, (2, n, 3)) * [[[1e-4]], [[0.02]]]
+    log = Recording.from_arrays(time=H * np.arange(n), gyro=rate + noise[0], accel=force + noise[1])
+    assert gyro_findings(log) == ()
+
+
+@pytest.mark.parametrize("lsb", [131, 65.5, 16.4, 1000 / 8.75, 1000 / 70])
+def test_counts_in_radians_that_are_called_degrees_at_rest(lsb):
+    """Nothing of the motion tells it: the size of a count does."""
+    counts = np.rint(np.random.default_rng(8).normal(3, 0.1 * lsb, (4000, 3)))
+    accel = [0, 0, 9.81] + np.random.default_rng(9).normal(0, 0.02, (4000, 3))
+    for once, said in ((1.0, []), (np.radians(1.0), [1 / DEGREE])):
+        stated = np.round(once * counts / lsb, 7)  # deg/s in the file
+        log = Recording.from_arrays(time=H * np.arange(4000), gyro=np.radians(stated), accel=accel)
+        assert [f.detail["factor"] for f in gyro_findings(log)] == pytest.approx(said)
 
 
 def kinds(recording):

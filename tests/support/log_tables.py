@@ -161,6 +161,25 @@ def hyper_imu(folder, log, stamped=True):
     return put(folder / "HIMU.csv", [*head, "", ",".join(names), *rows])
 
 
+# Loggers with their rate above the table
+
+
+def empatica(folder, log):
+    """The E4's ACC.csv: when it began, its rate, and 64 counts a g."""
+    since, rate = (", ".join([f"{v:.6f}"] * 3) for v in (1706779452.0, 32.0))
+    counts = np.rint(64 * log[2] / STANDARD_GRAVITY).astype(int)
+    return put(folder / "ACC.csv", [since, rate, *(",".join(map(str, row)) for row in counts)])
+
+
+def nexus(folder, log):
+    """Vicon Nexus' table of devices."""
+    count = len(log[0])
+    head = ["Devices", "100", ",,IMU - Accel,,,IMU - Gyro,,", "Frame,Sub Frame,X,Y,Z,X,Y,Z"]
+    head += [",,mm/s²,mm/s²,mm/s²,deg/s,deg/s,deg/s"]
+    columns = [whole(np.arange(1, count + 1)), whole(np.zeros(count))]
+    return table(folder / "nexus.csv", head, [*columns, *(1000 * log[2]).T, *np.degrees(log[1]).T])
+
+
 # Optical systems
 
 
@@ -190,6 +209,7 @@ ALONE = tuple(
     for make in (
         *(px4, ardupilot, mavlink, vectornav),
         *(novatel, wisdm, pamap2, total_capture, hyper_imu, posed_by_cameras),
+        *(empatica, nexus),
     )
 )
 """Layouts that are read as they are."""

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.attitude.filter.status import STATUS_NAMES
 from pyimu.attitude.outcome import NIS_BOUNDS, Outcome
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 from pyimu.report.figures import (
     AFTER,
     BEFORE,

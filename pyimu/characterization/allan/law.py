@@ -34,7 +34,7 @@ from scipy.fft import dct
 from scipy.linalg import eigvalsh, toeplitz
 from scipy.optimize import brentq
 
-from pyimu.laws import chi2, norm
+from pyimu.numerics.laws import chi2, norm
 from pyimu.shaping import allan_deviation
 
 Density = Callable[[np.ndarray], np.ndarray]

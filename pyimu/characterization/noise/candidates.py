@@ -12,7 +12,7 @@ from pyimu.characterization.allan.moments import TERMS, AllanMoments
 from pyimu.characterization.allan.pooled import pooled_moments
 from pyimu.characterization.noise.least_squares import Problem
 from pyimu.characterization.noise.sines import Groups, free_variances, sine_variance
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 
 CHANCE = 0.01
 """A misfit that chance makes more rarely than this is one of the model."""

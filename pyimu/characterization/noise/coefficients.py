@@ -42,7 +42,7 @@ from pyimu.characterization.allan.moments import MARKOV, RAMP, TERMS, design, mo
 from pyimu.characterization.estimate import Estimate
 from pyimu.characterization.noise.least_squares import Problem, has_noise
 from pyimu.errors import UserError
-from pyimu.laws import chi2, norm
+from pyimu.numerics.laws import chi2, norm
 
 
 @dataclass(frozen=True)

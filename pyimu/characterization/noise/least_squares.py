@@ -14,7 +14,7 @@ from scipy.optimize import nnls
 from scipy.special import gammaincc
 
 from pyimu.characterization.allan.moments import RAMP, AllanMoments
-from pyimu.laws import chi2, norm
+from pyimu.numerics.laws import chi2, norm
 
 CHANCE = 1e-3
 """A term is needed where noise without it would, with at most this probability, look as if it had

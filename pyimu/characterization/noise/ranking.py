@@ -33,7 +33,7 @@ from pyimu.characterization.allan.pooled import pooled_moments
 from pyimu.characterization.noise.candidates import CHANCE, LooseMoments, loosened
 from pyimu.characterization.noise.least_squares import CHANCE as GATE
 from pyimu.characterization.noise.least_squares import Problem, has_noise, without
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 
 STEP = np.sqrt(2.0)
 """Ratio of the correlation times that are tried."""

@@ -7,7 +7,6 @@ from typing import Any
 
 from markupsafe import Markup
 
-from pyimu import notebook
 from pyimu.characterization.evidence import Excerpt, LevelHistogram, StepHistogram, Timeline
 from pyimu.characterization.outcome import Channel, LogResult, Outcome
 from pyimu.characterization.report.beside import beside_tables
@@ -34,6 +33,7 @@ from pyimu.characterization.report.tables import (
     model_table,
 )
 from pyimu.characterization.report.terminal import in_lines
+from pyimu.display import notebook
 from pyimu.model.part import AXES
 from pyimu.report.findings import SENSORS
 from pyimu.report.page import Picture, Table, prose, quality_table, templates

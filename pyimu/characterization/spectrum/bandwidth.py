@@ -26,7 +26,7 @@ from scipy.special import digamma, polygamma
 from pyimu.characterization.estimate import Estimate
 from pyimu.characterization.spectrum.lines import Line
 from pyimu.characterization.spectrum.low_pass import LOW_PASSES, LowPass
-from pyimu.laws import chi2, norm
+from pyimu.numerics.laws import chi2, norm
 
 CHANCE = 1e-3
 """A level spectrum looks as if it rolled off, and a low-pass that is there as if it did not fit,

@@ -22,7 +22,7 @@ import numpy as np
 from pyimu.characterization.spectrum.background import Background, Scale
 from pyimu.characterization.spectrum.cascade import hann
 from pyimu.characterization.spectrum.psd import SHORTEST
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 
 HALF = 3
 """Bins on either side of the highest one that are fitted."""

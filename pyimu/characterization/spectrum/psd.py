@@ -29,9 +29,9 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from pyimu.brief import Brief
 from pyimu.characterization.spectrum.cascade import DECIMATION, Stage, hann
-from pyimu.laws import chi2
+from pyimu.display.brief import Brief
+from pyimu.numerics.laws import chi2
 
 PIECE = 2**17
 """Samples of a column that are processed, and wait, at a time."""

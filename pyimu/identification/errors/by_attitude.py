@@ -23,9 +23,9 @@ from pyimu.identification.search.forward import Investigation, less_of_baseline,
 from pyimu.identification.search.screen import fitted_dispersion
 from pyimu.identification.verdict.fates import TAKEN_BACK
 from pyimu.identification.verdict.verdict import WORSE
-from pyimu.laws import norm, t
 from pyimu.model.catalogue import WALK
 from pyimu.model.part import Part
+from pyimu.numerics.laws import norm, t
 from pyimu.recording.recording import Recording
 
 CALIBRATION = ("scale_factor", "misalignment")

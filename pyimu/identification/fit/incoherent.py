@@ -23,9 +23,9 @@ from pyimu.identification.fit.sample_noise import without_information
 from pyimu.identification.fit.short_memory import short_memory
 from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.laws import chi2
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
+from pyimu.numerics.laws import chi2
 
 WINDOWS = 8
 """Windows that a log is cut into, half of each in the next one: enough to tell the three axes of

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import brentq
 
-from pyimu.laws import norm
+from pyimu.numerics.laws import norm
 
 LEVEL = 0.95
 """Probability of the intervals."""

@@ -13,7 +13,7 @@ from pyimu.identification.fit.most_white import most_white
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.sample_noise import band_noise
 from pyimu.identification.fit.whiten import RandomWalk
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 
 WINDOW = 64
 """Rows of the windows in which the quiet is looked for."""

@@ -21,9 +21,9 @@ from pyimu.identification.fit.mixture import standard_error
 from pyimu.identification.fit.normal import normal_equations
 from pyimu.identification.fit.structure import prior_of, with_structure
 from pyimu.identification.fit.trial import Trial
-from pyimu.laws import beta, chi2
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import CLASSES, magnitudes
+from pyimu.numerics.laws import beta, chi2
 from pyimu.symbolic.earth import EARTH_RATE
 
 WANDER = "bias_instability"

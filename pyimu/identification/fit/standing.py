@@ -15,8 +15,8 @@ from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.incoherent import NOTHING, OVERLAP, Spectrum
 from pyimu.identification.fit.sample_noise import without_information
 from pyimu.identification.fit.trial import Trial
-from pyimu.laws import chi2
 from pyimu.model.kinds import OWN
+from pyimu.numerics.laws import chi2
 
 CHANCE = 1e-4
 """Probability by chance below which sensor and reference show a motion in common."""

@@ -14,6 +14,7 @@ from functools import partial
 
 import numpy as np
 
+from pyimu.display.silent import silent
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import advantage, fit_and_normal
@@ -56,7 +57,6 @@ from pyimu.identification.search.own_signal import is_of_reference
 from pyimu.identification.search.rounded import within_digits, without_rounding
 from pyimu.identification.search.screen import PENALTY, fitted_dispersion, fitted_gain
 from pyimu.model.catalogue import CATALOGUE
-from pyimu.silent import silent
 
 MOSTLY = 0.5
 """Share of the power of what a formula adds from which on another effect would add most of it."""

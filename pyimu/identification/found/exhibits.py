@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.signal import welch
 
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.identification.fit.columns import band_segments, band_time, in_band, residual
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.inputs import LogState, reference_input

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.errors import Finding
 from pyimu.files import plain
 from pyimu.identification.fit.trial import Trial

@@ -16,6 +16,7 @@ import numpy as np
 from pyimu.attitude.calibration import MagnetometerCalibration, of_sensor
 from pyimu.attitude.magnetometer import magnetometer_of
 from pyimu.characterization.magnetometer.estimate import LEAST, WEAKEST
+from pyimu.display.silent import silent
 from pyimu.identification.errors.held_out import clock_of, log_state
 from pyimu.identification.fit.score import ErrorSums
 from pyimu.identification.fit.trial import HEAD, HELD_OUT
@@ -36,10 +37,9 @@ from pyimu.identification.magnetometer.fit import (
 from pyimu.identification.magnetometer.rows import FieldRows, field_rows
 from pyimu.identification.model.model_of import Found
 from pyimu.identification.verdict.verdict import FAR
-from pyimu.laws import f as fisher
 from pyimu.model.part import Part
+from pyimu.numerics.laws import f as fisher
 from pyimu.recording.recording import Recording
-from pyimu.silent import silent
 
 GATE = 0.01
 """Probability with which a magnetometer that lacks nothing passes for one that does."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numba import njit
 
-from pyimu.positive import cholesky, solve
+from pyimu.numerics.positive import cholesky, solve
 
 ROUNDS = 40
 """Of Fisher's scoring, at most; six are usual."""
@@ -103,7 +103,7 @@ def gains(count, squares, base, known, known_least, tried, tried_least):
     p, k, cells = len(known), len(tried), len(count)
     out = np.zeros((len(squares), k))
     columns, least = np.zeros((p + 1, cells)), np.zeros(p + 1)
-    for a in range(p):  # In loops, as in ``pyimu.positive``.
+    for a in range(p):  # In loops, as in ``pyimu.numerics.positive``.
         least[a] = known_least[a]
         for j in range(cells):
             columns[a, j] = known[a, j]

@@ -98,7 +98,7 @@ def _kept(weight, mean, variance, count):
 def _move(weight, mean, variance, one, other):
     """Put a hypothesis in the place of another one."""
     weight[other] = weight[one]
-    for a in range(len(mean)):  # In loops, as in ``pyimu.positive``.
+    for a in range(len(mean)):  # In loops, as in ``pyimu.numerics.positive``.
         mean[a, other], variance[a, other] = mean[a, one], variance[a, one]
 
 

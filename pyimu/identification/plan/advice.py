@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.errors import UserError
 from pyimu.files import plain
 from pyimu.identification.fit.keys import Coefficient

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.files import plain
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.plan.goals import Goal

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
+from pyimu.display.silent import silent
 from pyimu.identification.model.as_part import SENSORS
 from pyimu.identification.plan.motions import Motion
 from pyimu.identification.plan.outcome import Log, Outcome, Pair, Predicted
@@ -22,7 +23,6 @@ from pyimu.identification.plan.words import (
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.report.numbers import MISSING, number, quantity
 from pyimu.report.page import Picture, Table, both, prose, templates
-from pyimu.silent import silent
 
 
 def page(p: Outcome, heard: Callable[[float], None] = silent) -> str:

@@ -9,6 +9,7 @@ from itertools import combinations
 
 import numpy as np
 
+from pyimu.display.silent import silent
 from pyimu.errors import UserError
 from pyimu.identification.fit.keys import Coefficient
 from pyimu.identification.plan.choice import LONGEST, Chooser, Question
@@ -39,10 +40,9 @@ from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.sensor import Sensor
 from pyimu.model.typical import magnitudes
+from pyimu.numerics.threads import on_one_thread
 from pyimu.recording.recording import Recording
 from pyimu.report.numbers import quantity
-from pyimu.silent import silent
-from pyimu.threads import on_one_thread
 
 SIGMAS = 8.0
 """Standard errors that an effect's size is to be, unless somebody says otherwise."""

@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from pyimu.display.silent import silent
 from pyimu.files import staged, write_json, write_text
 from pyimu.identification.plan.outcome import Outcome
 from pyimu.identification.plan.page import page
 from pyimu.identification.plan.words import in_lines
-from pyimu.silent import silent
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyimu.identification.fit.trial import Trial, accel_trial, gyro_trial
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trials import accel_trial, gyro_trial
 from pyimu.identification.plan.kinematics import attitude, force, joined_pieces
 from pyimu.identification.plan.motions import CYCLE, SUPPLY, WARMING, Limits, Motion
 from pyimu.model.catalogue import CATALOGUE

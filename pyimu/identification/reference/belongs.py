@@ -8,7 +8,7 @@ import numpy as np
 
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.reference.clock import is_still
+from pyimu.identification.reference.clock import are_still
 from pyimu.identification.reference.moving import (
     LEAST_ROWS,
     in_own_band,
@@ -71,7 +71,7 @@ def moves_alone(trial: Trial) -> str:
     axes = list(trial.axes)
     shown = {"reference": trial.u[:, OWN[trial.kind]][:, axes], f"{trial.kind}": trial.y[:, axes]}
     band = in_own_band(trial)
-    still = {who: is_still(band, v) for who, v in shown.items()}
+    still = dict(zip(shown, are_still(band, *shown.values()), strict=True))
     far = {who: _farthest(trial, v) for who, v in shown.items()}
     for mover, other in (tuple(shown), tuple(shown)[::-1]):
         if still[other] and far[mover] and not _follows(band, *shown.values()):

@@ -137,20 +137,24 @@ def moves(trial: Trial) -> bool:
     A sensor alone that does may follow its temperature.
     """
     axes, trial = list(trial.axes), in_own_band(trial)
-    return not any(is_still(trial, v[:, axes]) for v in (trial.u[:, OWN[trial.kind]], trial.y))
+    return not any(are_still(trial, trial.u[:, OWN[trial.kind]][:, axes], trial.y[:, axes]))
 
 
-def is_still(trial: Trial, values: np.ndarray) -> bool:
-    """Whether values (n, axes) show no more than the sensor's own noise in the trial's band, or are
-    too few to tell.
+def are_still(trial: Trial, *signals: np.ndarray) -> list[bool]:
+    """Of each of the ``signals`` (n, axes) whether it shows no more than the sensor's own noise in
+    the trial's band, or is too short to tell.
     """
-    x = in_band(trial, values)
-    if len(x) < LEAST_ROWS:
-        return True
+    shown = [in_band(trial, values) for values in signals]
+    if max(map(len, shown)) < LEAST_ROWS:
+        return [True] * len(shown)
     gain = np.sqrt(np.sum(np.square(trial.band.weights)))
     least = MOTION * gain * np.linalg.norm(band_noise(trial)[list(trial.axes)])
-    rounding = ROUNDING * np.linalg.norm(x, axis=1).max()
-    return bool(np.linalg.norm(x.std(axis=0)) <= max(least, rounding))
+
+    def is_still(x: np.ndarray) -> bool:
+        rounding = ROUNDING * np.linalg.norm(x, axis=1).max()
+        return bool(np.linalg.norm(x.std(axis=0)) <= max(least, rounding))
+
+    return [len(x) < LEAST_ROWS or is_still(x) for x in shown]
 
 
 def explained_by(trial: Trial) -> float:

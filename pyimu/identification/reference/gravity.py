@@ -10,7 +10,8 @@ import numpy as np
 from pyimu.errors import Finding
 from pyimu.identification.fit.rests import Rests
 from pyimu.identification.fit.scatter import typical_wander, wander_of, weighed, with_wander
-from pyimu.identification.fit.trial import Trial, environment
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trials import environment
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS

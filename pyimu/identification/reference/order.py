@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pyimu.identification.fit.trial import gyro_trial
+from pyimu.identification.fit.trials import gyro_trial
 from pyimu.identification.reference.clock import measure, shifted
 from pyimu.identification.reference.moving import moving_pair, turned_onto
 from pyimu.identification.reference.place import placed

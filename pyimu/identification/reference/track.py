@@ -19,7 +19,7 @@ from pyimu.identification.reference.steps import (
     ramp,
     stepped,
 )
-from pyimu.laws import chi2, f
+from pyimu.numerics.laws import chi2, f
 
 WANDERS = 6.0
 """Gain in log-likelihood [nat] of a level that wanders over one that does not, from which on it is

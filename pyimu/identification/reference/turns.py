@@ -14,7 +14,8 @@ from pyimu.errors import Finding
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.scatter import typical_wander, wander_of, weighed, with_wander
 from pyimu.identification.fit.score import held_state
-from pyimu.identification.fit.trial import Trial, environment
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trials import environment
 from pyimu.identification.fit.turns import Turns, at_middle
 from pyimu.identification.reference.gravity import rest_rows, sample_std
 from pyimu.identification.search.forward import Investigation

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from pyimu.identification.fit.clock import Clock
-from pyimu.identification.fit.trial import Trial, accel_trial
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trials import accel_trial
 from pyimu.identification.reference.adapts import without_adapting
 from pyimu.identification.reference.behind import without_filter
 from pyimu.identification.reference.behind_places import without_filter_of_places

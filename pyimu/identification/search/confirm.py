@@ -22,7 +22,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import WALKS
 from pyimu.identification.search.leftover import axis_likelihood
 from pyimu.identification.search.strayed import strayed
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 
 SPEAKS = 0.5
 """Log-likelihood [nat] by which two models must differ on held-out rows for these to decide."""

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from pyimu.display.silent import silent
 from pyimu.identification.fit.errors_in_variables import equations, has_noise
 from pyimu.identification.fit.fit import Fit, Last, begin, gauss_newton, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key, coefficients_of
@@ -61,7 +62,6 @@ from pyimu.identification.search.screen import (
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effects import EFFECTS
 from pyimu.model.sensor import Sensor
-from pyimu.silent import silent
 
 MOST_LINES = 4
 """Lines that are taken out of a reference at most; an encoder's motion makes dozens, of which few

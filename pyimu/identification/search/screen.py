@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.identification.fit.errors_in_variables import equations
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key

@@ -14,8 +14,8 @@ from pyimu.identification.search.judge import OF_REFERENCE
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.rounded import OF_DIGITS
 from pyimu.identification.verdict.fates import NOT_LOOKED_FOR, Fate
-from pyimu.laws import chi2
 from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
+from pyimu.numerics.laws import chi2
 from pyimu.report.numbers import joined, number
 
 FAR = 3.0

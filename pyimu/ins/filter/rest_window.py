@@ -15,7 +15,7 @@ import casadi as ca
 
 from pyimu.attitude.filter.settings import Settings
 from pyimu.ins.detector import FALSE_ALARM, STEADY_GATE
-from pyimu.laws import chi2, norm
+from pyimu.numerics.laws import chi2, norm
 from pyimu.symbolic.linear import cholesky, forward, reciprocal
 
 SLOTS = 10

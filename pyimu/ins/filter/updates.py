@@ -25,7 +25,7 @@ from pyimu.ins.filter.layout import (
 )
 from pyimu.ins.filter.prediction import about_the_centre
 from pyimu.ins.filter.weight import earth_by_turn
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import cholesky, forward, reciprocal, symmetric
 from pyimu.symbolic.missing import is_finite

@@ -31,7 +31,7 @@ import casadi as ca
 
 from pyimu.attitude.filter.settings import Settings
 from pyimu.ins.filter.layout import BASE, HEADING, TURN, Layout, State
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 
 BY_CHANCE = 1e-3
 """Probability with which errors alone exceed what they may be."""

@@ -12,7 +12,7 @@ from matplotlib.patches import Ellipse
 
 from pyimu.ins.outcome import Outcome
 from pyimu.ins.track import Track
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 from pyimu.report.figures import (
     AFTER,
     BEFORE,

@@ -17,6 +17,7 @@ from pathlib import Path
 from pyimu.errors import UserError
 from pyimu.recording.columns import UNITS
 from pyimu.recording.formats.bodies import total_capture
+from pyimu.recording.formats.by_word import rows_by_word
 from pyimu.recording.formats.cells import MISSING, is_number
 from pyimu.recording.formats.clock_times import is_clock_time
 from pyimu.recording.formats.lines import UTF_8, code_of, is_comment, lines
@@ -32,7 +33,7 @@ from pyimu.recording.formats.marked import (
 from pyimu.recording.formats.novatel import novatel
 from pyimu.recording.formats.optical import optical
 from pyimu.recording.formats.rate_line import rate_in
-from pyimu.recording.formats.sections import Sections, sections
+from pyimu.recording.formats.sections import Sections, rate_of_devices, sections
 from pyimu.recording.formats.thousands import without_marks
 from pyimu.recording.formats.unnamed import names_of
 from pyimu.recording.spelling import bare, unit_of
@@ -209,7 +210,7 @@ def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
     Raises UserError for a ``topic`` that is not there.
     """
     if topic:
-        found = gnss_logger(head, topic) or total_capture(head, topic)
+        found = gnss_logger(head, topic) or total_capture(head, topic) or _by_word(head, topic)
         if found is not None:
             return found
         bodies = total_capture(head)
@@ -228,8 +229,13 @@ def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
         or vectornav(rows)
         or sentences(rows)
         or total_capture(rows)
-        or labelled(rows, path)
+        or labelled(head, path)
+        or rows_by_word(rows)
     )
+
+
+def _by_word(head: Sequence[str], topic: str) -> Marked | None:
+    return rows_by_word([line for line in head if line.strip() and not is_comment(line)], topic)
 
 
 _ENDS = " ;\r\n"
@@ -283,6 +289,7 @@ def told_from(head: Sequence[str]) -> Layout:
     names = _names(named, width, empty) or names_of(whole, form.separator)
     notes = [line for k, line in numbered if is_comment(line) or k < first]
     rate = next((hertz for line in notes[:HEAD] if (hertz := rate_in(line))), None)
+    rate = rate or rate_of_devices(head)
     return Layout(
         form.separator,
         form.decimal,

@@ -14,6 +14,7 @@ from typing import BinaryIO
 
 from pyimu.errors import UserError
 from pyimu.recording.formats.cells import ERRORS
+from pyimu.recording.naming.languages import CODES, code_by_words
 
 LONGEST = 1 << 18
 """Bytes of a line: a table of 10,000 columns has no longer ones, and a file without ends of lines
@@ -39,8 +40,9 @@ def is_comment(line: str) -> bool:
 UTF_16 = "UTF-16"
 UTF_8 = "UTF-8"
 WESTERN = "Windows-1252"
-CHINESE = "GB 2312"
-"""Codes of a text: the second is the usual one, and in the others older programs write."""
+CHINESE = CODES["gb2312"]
+"""Codes of a text: the second is the usual one, and in the others older programs write, as in those
+of ``CODES``."""
 
 _BOMS = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
 """Marks at the start of texts in UTF-16."""
@@ -87,25 +89,45 @@ def code_of(path: Path) -> str:
         try:
             codecs.getincrementaldecoder("utf-8")().decode(head := stream.read(LONGEST))
         except UnicodeDecodeError:
+            told = _code_by_words(head)
+            if told is not None:
+                return CODES[told]
             return WESTERN if _in_chinese(head) is None else CHINESE
     return UTF_8
+
+
+def _code_by_words(head: bytes) -> str | None:
+    """The code in which one of the first lines has a word for a quantity, None where none has."""
+    told = (code_by_words(line) for line in head.splitlines() if not _is_utf_8(line))
+    return next((code for code in told if code is not None), None)
+
+
+def _is_utf_8(line: bytes) -> bool:
+    try:
+        line.decode("utf-8")
+    except UnicodeDecodeError:
+        return False
+    return True
 
 
 def lines(path: Path) -> Iterator[str]:
     """The lines of a text, without a byte order mark.
 
-    A line that is not in UTF-8 is taken for one in Windows-1252, or in GB 2312 where it may be in
-    that. Raises UserError for bytes that are no text there, and for a line longer than ``LONGEST``.
+    A line that is not in UTF-8 is taken for one in the code in which the first lines have words for
+    quantities, else for one in Windows-1252, or in GB 2312 where it may be in that. Raises
+    UserError for bytes that are no text there, and for a line longer than ``LONGEST``.
     """
     with opened(path) as (stream, _):
-        number = 0
+        number, code, looked = 0, None, False
         while line := stream.readline(LONGEST + 1):
             number += 1
             if len(line) > LONGEST:
                 raise UserError(
                     f"{path}: row {number} is longer than {LONGEST >> 10} KiB, this is no table"
                 )
-            text = _decoded(line, number == 1)
+            if not (looked or line.isascii() or _is_utf_8(line)):
+                code, looked = _told_code(path), True
+            text = _decoded(line, number == 1, code)
             if text is None:
                 raise UserError(
                     f"{path}: is not text in {UTF_8}, {UTF_16}, {WESTERN} or {CHINESE}; save text "
@@ -114,12 +136,17 @@ def lines(path: Path) -> Iterator[str]:
             yield text
 
 
-def _decoded(line: bytes, first: bool) -> str | None:
+def _told_code(path: Path) -> str | None:
+    with opened(path) as (stream, _):
+        return _code_by_words(stream.read(LONGEST))
+
+
+def _decoded(line: bytes, first: bool, code: str | None) -> str | None:
     """A line's text, None where it is none; letters of Windows-1252 are no control characters."""
-    try:
+    if _is_utf_8(line):
         return line.decode("utf-8-sig" if first else "utf-8")
-    except UnicodeDecodeError:
-        pass
+    if code is not None:
+        return line.decode(code, "replace")
     chinese = _in_chinese(line)
     if chinese is not None:
         return chinese

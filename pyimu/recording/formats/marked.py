@@ -15,6 +15,8 @@ from dataclasses import dataclass
 from functools import reduce
 
 from pyimu.errors import UserError
+from pyimu.recording.formats.lines import is_comment
+from pyimu.recording.formats.several_lines import Joined, turns
 from pyimu.recording.spelling import unit_of
 
 Rewrite = Callable[[str], str | None]
@@ -39,6 +41,14 @@ _STAMP = re.compile(r"\s*(\d{1,2}:\d{2}:\d{2}[.,]?\d*)\s*->\s*")
 STAMP = "time of day"
 """The column of such stamps."""
 
+_FRONT = re.compile(r"\s*(\d+\.?\d*)(?:\s*[:;,]\s*|\s+)(?=[A-Za-z_\"])")
+"""A number before the first label, as of a time: ``10: ax=0.12 ay=0.98``."""
+
+FRONT = "column 1"
+"""The column of such numbers."""
+
+IN_FRONT = (STAMP, FRONT)
+
 
 @dataclass(frozen=True)
 class Marked:
@@ -54,13 +64,24 @@ class Marked:
     body: str | None = None
     commented: bool = False
     rate: float | None = None
+    word: str = ""
+    words: tuple[str, ...] = ()
+    """The word in the rows, and those in rows of other sensors of the same log."""
+    anew: Callable[[], Rewrite] | None = None
+    """What gives one that begins anew, where a row is made of several lines."""
+
+    def rewriter(self) -> Rewrite:
+        """What makes rows of the lines of one pass over the file."""
+        return self.rewrite if self.anew is None else self.anew()
 
 
-def labelled(lines: Sequence[str], where: object) -> Marked | None:
-    """How the ``lines`` are read, where most have a label before each of their numbers.
+def labelled(head: Sequence[str], where: object) -> Marked | None:
+    """How the lines of a file with these first ones are read, where most have a label before each
+    of their numbers.
 
-    Raises UserError where the values of one sample stand in several lines.
+    Raises UserError where the values of one sample stand in several lines, out of turn.
     """
+    lines = [line for line in head if line.strip() and not is_comment(line)]
     found = [pairs for line in lines[len(lines) // 2 :] if (pairs := _pairs(line)) is not None]
     kinds = Counter(_labels(pairs) for pairs in found)
     (labels, count), *others = kinds.most_common() or [((), 0)]
@@ -68,25 +89,61 @@ def labelled(lines: Sequence[str], where: object) -> Marked | None:
     if share < (SOME if others else SHARE):
         return None
     if count < SHARE * len(found):
-        several = " and ".join(kind[0] for kind, _ in (kinds.most_common(2)))
-        raise UserError(
-            f"{where}: the values of one sample stand in several lines, those of {several}; have "
-            "them written in one line"
-        )
+        return _in_turn(found, head, where)
     if len(labels) < 2:
         return None
-    units = _units(next(pairs for pairs in found if _labels(pairs) == labels))
-    names = _with_stems([label for label in labels if label != STAMP])
-    names = [f"{n} [{u}]" if u else n for n, u in zip(names, units, strict=True)]
-    stamped = labels[0] == STAMP
+    names = _columns(next(pairs for pairs in found if _labels(pairs) == labels))
 
     def rewrite(line: str) -> str | None:
         pairs = _pairs(line)
         known = pairs is not None and _labels(pairs) == labels
         return ",".join(value for _, value, _ in pairs) if known and pairs else line
 
-    names = [STAMP] * stamped + names
-    return Marked(tuple(names), rewrite, "a label before each number", (0,) if stamped else ())
+    return Marked(tuple(names), rewrite, "a label before each number", _clocks(names))
+
+
+def _in_turn(found: Sequence[Pairs], head: Sequence[str], where: object) -> Marked:
+    """How lines with these labels are read, of which several make a sample.
+
+    Raises UserError where they do not come in turn.
+    """
+    there = {_labels(pairs) for pairs in found}
+    lines = [taken if (taken := _labels(_pairs(line) or [])) in there else None for line in head]
+    order = turns(lines)
+    if not order:
+        kinds = Counter(_labels(pairs) for pairs in found).most_common(2)
+        raise UserError(
+            f"{where}: the values of one sample stand in several lines, which do not come in turn, "
+            f"those of {' and '.join(kind[0] for kind, _ in kinds)}; have them written in one line"
+        )
+    each = [_columns(next(p for p in found if _labels(p) == labels)) for labels in order]
+    names = [
+        n if n not in sum(each[:k], []) else f"{n} of line {k + 1}"
+        for k, of in enumerate(each)
+        for n in of
+    ]
+
+    def taken(line: str) -> tuple[tuple[str, ...], list[str]] | None:
+        pairs = _pairs(line)
+        return None if pairs is None else (_labels(pairs), [value for _, value, _ in pairs])
+
+    def begins(line: str) -> str | None:
+        told = taken(line)
+        return line if told is None or told[0] != order[0] else ",".join(told[1])
+
+    said = f"a label before each number, a sample in {len(order)} lines"
+    return Marked(tuple(names), begins, said, _clocks(names), anew=lambda: Joined(taken, order))
+
+
+def _columns(pairs: Pairs) -> list[str]:
+    """The names of the columns that a line makes, with their units."""
+    names = _with_stems([label for label, _, _ in pairs])
+    units = _units(pairs)
+    return [f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True)]
+
+
+def _clocks(names: Sequence[str]) -> tuple[int, ...]:
+    return tuple(k for k, name in enumerate(names) if name.startswith(STAMP))
 
 
 Pairs = list[tuple[str, str, str | None]]
@@ -106,6 +163,10 @@ def _pairs(line: str) -> Pairs | None:
     if stamp is not None:
         found.append((STAMP, stamp[1], None))
         at = stamp.end()
+    front = _FRONT.match(line, at)
+    if front is not None:
+        found.append((FRONT, front[1], None))
+        at = front.end()
     while at < len(line):
         match = _PAIR.match(line, at)
         if match is None:
@@ -120,9 +181,8 @@ def _pairs(line: str) -> Pairs | None:
 
 def _units(pairs: Pairs) -> list[str | None]:
     """The unit of each value; one behind the last of a vector is that of its other two, too."""
-    own = [(label, unit) for label, _, unit in pairs if label != STAMP]
-    units = [unit for _, unit in own]
-    for k, (label, unit) in enumerate(own):
+    units = [unit for _, _, unit in pairs]
+    for k, (label, _, unit) in enumerate(pairs):
         if unit and k >= 2 and units[k - 2 : k] == [None, None] and label[-1:] in "zZ":
             units[k - 2 : k] = [unit, unit]
     return units
@@ -132,7 +192,7 @@ def _with_stems(labels: Sequence[str]) -> list[str]:
     """The labels; an axis alone has the words of the one before it: ``Acceleration X: 1, Y: 2``."""
     found: list[str] = []
     for label in labels:
-        if label in tuple("xyzXYZ") and found and " " in found[-1]:
+        if label in tuple("xyzXYZ") and found and " " in found[-1] and found[-1] not in IN_FRONT:
             label = f"{found[-1].rpartition(' ')[0]} {label}"
         found.append(label)
     return found

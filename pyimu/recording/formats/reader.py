@@ -23,7 +23,9 @@ class Reader(ABC):
     so that only the columns that a map names, or whose names are a recording's own, are looked at;
     ``skipped`` says what in it has no columns of numbers, and why. ``rate`` [Hz] is what the file
     says of itself, for where it has no times, ``body`` the axes that its format defines ("frd").
-    ``clocks`` are the columns of dates and times of day, which come in s whatever their names say.
+    ``word`` stands in the rows that are read of a table of several sensors, ``words`` in those of
+    the others. ``clocks`` are the columns of dates and times of day, which come in s whatever their
+    names say.
     """
 
     path: Path
@@ -34,6 +36,8 @@ class Reader(ABC):
     rate: float | None = None
     body: str | None = None
     clocks: tuple[str, ...] = ()
+    word: str = ""
+    words: tuple[str, ...] = ()
     in_memory = False
     """Whether it is no file, so that no command can look into it."""
 
@@ -95,6 +99,14 @@ class ReaderOver(Reader):
     @property
     def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
         return self.reader.clocks
+
+    @property
+    def word(self) -> str:  # type: ignore[override]
+        return self.reader.word
+
+    @property
+    def words(self) -> tuple[str, ...]:  # type: ignore[override]
+        return self.reader.words
 
     @property
     def crowded(self) -> bool:  # type: ignore[override]

@@ -2,11 +2,15 @@
 
 LabVIEW's measurement files (National Instruments, "Specification for the LabVIEW Measurement File")
 say separator, decimal mark, units and the time between samples; Racelogic's VBO files ("VBO file
-format") the columns and their units, and have times of day as ``105950.12``.
+format") the columns and their units, and have times of day as ``105950.12``; OpenSignals' text
+("OpenSignals Text File Format", Plux) the columns and the rate of each device in JSON; Empatica's
+tables (E4 connect, "info.txt") their first time and their rate in the rows before their numbers;
+Vicon Nexus' tables of devices their rate in the second row.
 """
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -38,7 +42,58 @@ class Sections:
 def sections(head: Sequence[str]) -> Sections | None:
     """Of the first lines of a text, None where they have no such sections."""
     rows = [line.rstrip("\r\n") for line in head]
-    return _labview(rows) or _vbo(rows)
+    return _labview(rows) or _vbo(rows) or _opensignals(rows) or _empatica(rows)
+
+
+OPEN_SIGNALS = "# OpenSignals Text File Format"
+EMPATICA = ("ACC x", "ACC y", "ACC z")
+"""What the columns of the only table of Empatica's that has three are called here."""
+
+SINCE_1970 = (946684800.0, 4102444800.0)
+"""s; from the year 2000 to 2100."""
+
+
+def _opensignals(rows: Sequence[str]) -> Sections | None:
+    end = next((k for k, row in enumerate(rows) if row.strip() == "# EndOfHeader"), None)
+    if end is None or rows[0].strip() != OPEN_SIGNALS or end < 2:
+        return None
+    try:
+        devices = list(json.loads(rows[1].lstrip("# ")).values())
+        names = [str(name) for device in devices for name in device["column"]]
+        rates = {float(device["sampling rate"]) for device in devices}
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return None
+    names = [n if n not in names[:k] else f"{n} column {k + 1}" for k, n in enumerate(names)]
+    width = len(rows[end + 1].split("\t")) if end + 1 < len(rows) else 0
+    names += [f"column {k + 1}" for k in range(len(names), width)]
+    rate = rates.pop() if len(rates) == 1 and min(rates) > 0 else None
+    return Sections("\t", ".", tuple(names[: width or None]), end + 2, rate)
+
+
+def _empatica(rows: Sequence[str]) -> Sections | None:
+    cells = [[_number(cell) for cell in row.split(",")] for row in rows[:3]]
+    if len(cells) < 3 or any(len(c) != len(EMPATICA) or None in c for c in cells):
+        return None
+    (since, *others), (rate, *rates), _ = cells
+    if set(others) != {since} or set(rates) != {rate} or since is None or rate is None:
+        return None
+    if not (SINCE_1970[0] < since < SINCE_1970[1] and 0 < rate < 1000):
+        return None
+    return Sections(",", ".", EMPATICA, 3, rate)
+
+
+def _number(cell: str) -> float | None:
+    try:
+        return float(cell)
+    except ValueError:
+        return None
+
+
+def rate_of_devices(head: Sequence[str]) -> float | None:
+    """Hz; what the second row of Vicon Nexus' table of devices says."""
+    rows = [line.strip(" ,\t\r\n") for line in head[:2]]
+    rate = _number(rows[1]) if rows[:1] == ["Devices"] and len(rows) > 1 else None
+    return rate if rate is not None and rate > 0 else None
 
 
 def _labview(rows: Sequence[str]) -> Sections | None:

@@ -77,6 +77,14 @@ class CsvReader(Reader):
     def clocks(self) -> tuple[str, ...]:  # type: ignore[override]
         return tuple(self.header[k] for k in self.layout.clocks)
 
+    @property
+    def word(self) -> str:  # type: ignore[override]
+        return "" if self.layout.marked is None else self.layout.marked.word
+
+    @property
+    def words(self) -> tuple[str, ...]:  # type: ignore[override]
+        return () if self.layout.marked is None else self.layout.marked.words
+
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
         """``long`` is int64 where its numbers need it.
 
@@ -143,7 +151,7 @@ class CsvReader(Reader):
         with opened(self.path) as (stream, raw):
             whole = self._is_row if self._broken else None
             marked = self.layout.marked
-            rewrite = None if marked is None else marked.rewrite
+            rewrite = None if marked is None else marked.rewriter()
             blanks, comments = self.layout.separator == " ", not self._begin_so
             body = Body(stream, first, stop, blanks, whole, rewrite, comments)
             for block in body.blocks():
@@ -201,18 +209,22 @@ class CsvReader(Reader):
 
     def _lines(self) -> Iterator[tuple[int, str]]:
         """(row, line) of each row of numbers that is not blank, as a spreadsheet counts them."""
-        layout = self.layout
+        layout, began = self.layout, 0
+        rewrite = None if layout.marked is None else layout.marked.rewriter()
+        several = layout.marked is not None and layout.marked.anew is not None
         for number, line in enumerate(lines(self.path), 1):
             comment = is_comment(line) and not self._begin_so
             if number >= layout.first and line.strip() and not comment:
                 line = line.rstrip("\r\n")
-                if layout.marked is not None:
-                    row = layout.marked.rewrite(line)
+                began = began or number
+                if rewrite is not None:
+                    row = rewrite(line)
                     if row is None:
                         continue
                     line = row
                 if not self._broken or len(layout.cells(line)) == len(self.header):
-                    yield number, line
+                    yield began if several else number, line
+                began = 0
 
     def _first_row(self) -> list[str] | None:
         return next(self._rows(), (0, None))[1]

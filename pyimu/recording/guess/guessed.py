@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from pyimu.brief import Brief
+from pyimu.display.brief import Brief
 from pyimu.recording.columns import GROUP_OF
 
 CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s")} | {
@@ -22,8 +22,8 @@ CHOICES = {"time": ("s", "ms", "us", "ns"), "gyro": ("rad/s", "deg/s")} | {
 class Guess:
     """A column of the file and what it may be: ``target`` such as ``gyro_x``, its unit, and why.
 
-    ``unit`` is None where nobody knows; ``value`` the size of a count in it, ``sizes`` those in
-    deg/s that it may have.
+    ``unit`` is None where nobody knows; ``value`` the size of a count in it, ``sizes`` those
+    that it may have, in deg/s or g.
     """
 
     cell: str
@@ -43,7 +43,8 @@ class Proposal(Brief):
     """What the columns of a file may be.
 
     ``notes`` say what else could be meant; ``rate`` [Hz] is what the file says of itself, or
-    a map of it, where it has no times.
+    a map of it, where it has no times; ``topic`` the word in its rows, of a file with those of
+    several sensors.
     """
 
     path: Path
@@ -51,6 +52,7 @@ class Proposal(Brief):
     guesses: list[Guess] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     rate: float | None = None
+    topic: str = ""
 
     @property
     def timeless(self) -> bool:

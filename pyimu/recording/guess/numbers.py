@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from pyimu.units import STANDARD_GRAVITY
+from pyimu.recording.guess.gravity_turning import LIKE, turning_of_gravity
+from pyimu.units import STANDARD_GRAVITY, parse
 
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "day": 86400.0}
 """Units in which clocks count, and the serial dates of spreadsheets."""
@@ -25,25 +25,26 @@ SLOWEST = 0.01
 EPOCH = (946684800.0, 4102444800.0)
 """s since 1970 of the years 2000 and 2100: so large a time is a date, and tells its unit."""
 
+TICK = 1e-7
+TICKS = {62_135_596_800.0: ".NET's ticks", 11_644_473_600.0: "Windows' file times"}
+"""s; in which some programs count, and how long before 1970 they begin."""
+
 SERIAL = 25569.0
 """Days from the first of spreadsheets, 1899-12-30, to 1970."""
 
 NEAR_GRAVITY = 0.1
 """By how much the size of gravity may be off where a sensor rests."""
 
-LIKE = 2.0
-"""A slope of the gravity's turning on the rate is that of a unit to this factor."""
-
 LEAST_MIDDLE = 512.0
 """The middle of the numbers of a converter of ten bits."""
 
-SURE = 0.4
-"""Least correlation of the gravity's turning with what the rate makes of it. Chosen on BROAD 02, 07
-and an MPU-9150 turned by hand; of a car, a pendulum and a board waved by hand it then gave the
-right unit, and none of a wand that is swung, of fast shifts by hand and of a log at rest."""
+TURNED_MIDDLE = 0.25
+"""By how much all three axes may be off the middle: gravity on one is a fifth of it, as on ADXL335
+with OpenSignals' converter."""
 
 FASTEST = 100.0
 """rad/s; hands, vehicles and robots do not turn as fast: larger numbers are degrees a second."""
+
 
 WARM, WARM_K = (-40.0, 125.0), (233.15, 398.15)
 """degC and K within which electronics are specified to work."""
@@ -54,8 +55,23 @@ WRAP = 0.05
 SENSITIVITIES = {
     **dict.fromkeys((262.4, 131.0, 65.5, 32.8, 16.4), "InvenSense and Bosch"),
     **{1000 / mdps: f"ST, {mdps:g} mdps/LSB" for mdps in (4.375, 8.75, 17.5, 35.0, 70.0, 140.0)},
+    **dict.fromkeys((10.0, 20.0, 25.0, 40.0, 50.0, 160.0), "Analog Devices"),
+    100.0: "TSND151",
 }
-"""Counts a deg/s of gyros, and whose (data sheets of MPU-6050, BMI160, LSM6DSO, L3GD20)."""
+"""Counts a deg/s of gyros, and whose (data sheets of MPU-6050, BMI160, LSM6DSO, L3GD20, ADIS16405,
+ADIS16448, ADIS16470, ADIS16480 and ADIS16495-1 to -3; TSND151)."""
+
+COUNTS_A_G = {
+    k: f" (Analog Devices, {1000 / k:g} mg/LSB)" for k in (800.0, 1200.0, 1250.0, 4000.0)
+} | {10000.0: " (0.1 mg/LSB)", 9806.65: " (mm/s^2)"}
+"""Counts a g of accelerometers beside powers of two, and whose (data sheets of ADIS16470,
+ADIS16448, ADIS16480 and ADIS16495; TSND151)."""
+
+WRITTEN = {1000 * np.pi / 180: "mrad/s", 1000.0: "mdeg/s"}
+"""Whole numbers a deg/s of units that programs write."""
+
+WRITTEN_FITS = 0.015
+"""By how much these may be off: 17.45 is 6 % off the 16.4 that gyros have."""
 
 FITS = 0.25
 """By how much a sensitivity may differ from what gravity's turning shows."""
@@ -63,16 +79,8 @@ FITS = 0.25
 CLEARLY = 2.0
 """How many times as far off, in logarithms, the next sensitivity must be for one to be taken."""
 
-BLOCKS = (0.04, 0.1, 0.2, 0.5, 1.0)
-"""s; over so long means the turning of gravity is compared with the rate: fast turns need short
-ones, slow turns long ones, and of all that counts in which the two agree best."""
-
-
 TURN = 361.0
 """deg; no pitch has more, however it is counted."""
-
-TRIES = 8
-"""Steps of Newton's method to the scale of a gyro, at most."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +88,7 @@ class UnitGuess:
     """A unit and the reason for it; ``unit`` is None where the numbers do not tell.
 
     ``value`` is the size of one count in ``unit`` where the numbers are counts. ``sizes`` are those
-    that it may have in deg/s where ``unit`` is None for there are several.
+    that it may have, in deg/s or g, where ``unit`` is None for there are several.
     """
 
     unit: str | None
@@ -107,8 +115,12 @@ def time_unit(time: np.ndarray) -> UnitGuess:
         if unit == "day":
             since, slowest = (first - SERIAL) * size, POSSIBLE[0]
         if EPOCH[0] < since < EPOCH[1] and slowest <= rates[unit] <= 1e6:
-            year = int(1970 + since / 31556952)
-            return UnitGuess(unit, f"a date of {year}, at {rates[unit]:.4g} Hz")
+            return UnitGuess(unit, f"a date of {_year(since)}, at {rates[unit]:.4g} Hz")
+    for before, whose in TICKS.items():
+        since, hertz = first * TICK - before, 1 / (median * TICK)
+        if EPOCH[0] < since < EPOCH[1] and hertz <= 1e6:
+            why = f"a date of {_year(since)} in {whose} of 100 ns, at {hertz:.4g} Hz"
+            return UnitGuess("s", why, TICK)
     if np.all(step == 1):
         return UnitGuess(None, "whole numbers one apart: a counter of samples, or times")
     possible = [unit for unit, rate in rates.items() if POSSIBLE[0] <= rate < POSSIBLE[1]]
@@ -119,6 +131,11 @@ def time_unit(time: np.ndarray) -> UnitGuess:
     slower = [f"{r:.4g} Hz in {u}" for u, r in rates.items() if SLOWEST <= r < POSSIBLE[0]]
     other = f" ({slower[0]})" if slower else ""
     return UnitGuess(unit, f"steps of {median:.4g} are {rates[unit]:.4g} Hz then{other}")
+
+
+def _year(since: float) -> int:
+    """The year of a time s since 1970."""
+    return int(1970 + since / 31556952)
 
 
 def warmth_unit(warmth: np.ndarray) -> UnitGuess:
@@ -145,34 +162,54 @@ def force_unit(force: np.ndarray) -> UnitGuess:
     size = resting_size(force)
     if size is None:
         return UnitGuess(None, "no quiet part of the log shows gravity")
-    middle = _middle(force)
-    if middle is not None:
-        why = f"whole numbers about {middle:.0f}, as counts without a sign: [scale] takes an offset"
+    zero = middle(force)
+    if zero is not None:
+        why = f"whole numbers about {zero:.0f}, as counts without a sign: [scale] takes an offset"
         return UnitGuess(None, why)
     for unit, one in (("m/s^2", STANDARD_GRAVITY), ("g", 1.0), ("mg", 1000.0)):
         if abs(size / one - 1) < NEAR_GRAVITY:
             if unit == "mg" and _is_power(size) and counts(force.ravel()):
                 continue
-            return UnitGuess(unit, f"gravity is {size:.4g} then")
+            near = unit == "mg" and abs(size / (100 * STANDARD_GRAVITY) - 1) < WRITTEN_FITS
+            other = f"; were they cm/s^2 it would be {size / 100:.4g} m/s^2" if near else ""
+            return UnitGuess(unit, f"gravity is {size:.4g} then{other}")
     if counts(force.ravel()) and size > 100:
-        whole = 2.0 ** round(np.log2(size))
-        if abs(size / whole - 1) < NEAR_GRAVITY:
-            return UnitGuess("g", f"gravity is {size:.5g} counts, {whole:.0f} a g", 1 / whole)
-        return UnitGuess(None, f"gravity is {size:.5g} counts: see the data sheet for LSB/g")
+        return _counts_a_g(size)
     return UnitGuess(None, f"gravity is {size:.4g}, in no usual unit (does the log hold it?)")
 
 
-def _middle(force: np.ndarray) -> float | None:
-    """The power of two about which two axes or more lie and none has a sign, as counts (n, 3) of a
+def _counts_a_g(size: float) -> UnitGuess:
+    """The size of a count of which gravity is ``size``: that of the nearest sensitivity, where the
+    next is clearly less near; else both.
+    """
+    seen = f"gravity is {size:.5g} counts"
+    sizes = {2.0 ** round(np.log2(size)): "", **COUNTS_A_G}
+    near, *others = sorted(sizes, key=lambda k: abs(float(np.log(size / k))))
+    if abs(size / near - 1) >= NEAR_GRAVITY:
+        return UnitGuess(None, f"{seen}: see the data sheet for LSB/g")
+    off, other = (abs(float(np.log(size / k))) for k in (near, others[0]))
+    why = f"{seen}, {near:.0f} a g{sizes[near]}"
+    if other < NEAR_GRAVITY:
+        why += f"{' or' if other < CLEARLY * off else ', not'} {others[0]:.0f}{sizes[others[0]]}"
+    if other < CLEARLY * off:
+        return UnitGuess(None, why, sizes=(1 / near, 1 / others[0]))
+    return UnitGuess("g", why, 1 / near)
+
+
+def middle(force: np.ndarray) -> float | None:
+    """The power of two near which two axes or more lie and none has a sign, as counts (n, 3) of a
     converter have that begin at zero; None of any other numbers.
     """
     if not counts(force.ravel()) or not np.nanmin(force) > 0:
         return None
     middles = np.nanmedian(force, axis=0)
     powers = 2.0 ** np.rint(np.log2(middles))
-    near = powers[np.abs(middles / powers - 1) < NEAR_GRAVITY]
-    alike = [p for p in near if np.count_nonzero(near == p) > 1 and p >= LEAST_MIDDLE]
-    return float(alike[0]) if alike else None
+    off = np.abs(middles / powers - 1)
+    for power in powers[powers >= LEAST_MIDDLE]:
+        own = off[powers == power]
+        if np.count_nonzero(own < NEAR_GRAVITY) > 1 or len(own) == 3 and own.max() < TURNED_MIDDLE:
+            return float(power)
+    return None
 
 
 def _is_power(size: float) -> bool:
@@ -217,6 +254,23 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
     if largest > FASTEST:
         return UnitGuess("deg/s", f"{largest:.4g} rad/s would be faster than anything turns")
     return UnitGuess(None, f"rad/s or deg/s? {_lacking(force, period)} to tell")
+
+
+def angle_of_rate(
+    unit: str, said: str, angles: np.ndarray, force: np.ndarray | None, period: float | None
+) -> UnitGuess:
+    """What a gyro's numbers (n, 3) are of which the header says an angle's ``unit``, as it ``said``
+    it: that a second, or the angles between samples ``period`` s apart, by how gravity turns.
+    """
+    asked = UnitGuess(f"{unit}/s", f"the header says {said}: a second, of a rate?")
+    if force is None or period is None:
+        return asked
+    slope = turning_of_gravity(angles, force, period)
+    each = 1 / period
+    if slope is None or not 1 / LIKE < slope / parse(unit).factor / each < LIKE:
+        return asked
+    why = f"the header says {said}, and gravity turns so far from sample to sample"
+    return UnitGuess(f"{unit}/s", why, each)
 
 
 def _lacking(force: np.ndarray | None, period: float | None) -> str:
@@ -264,93 +318,15 @@ def sensitivities(lsb: float) -> UnitGuess | None:
 
     Of two that fit the nearer is taken where that is clear, and the other is said; else both are.
     """
-    off = {k: abs(float(np.log(lsb / k))) for k in SENSITIVITIES}
+    own = {k: said for k, said in WRITTEN.items() if abs(lsb / k - 1) < WRITTEN_FITS}
+    known = {**SENSITIVITIES, **own}
+    off = {k: abs(float(np.log(lsb / k))) for k in known}
     near = sorted((k for k in off if abs(lsb / k - 1) < FITS), key=off.__getitem__)[:2]
     if not near:
         return None
-    names = [f"{k:.4g} ({SENSITIVITIES[k]})" for k in near]
+    names = [f"{k:.4g} ({known[k]})" for k in near]
     why = f"gravity's turning shows {lsb:.3g} counts a deg/s: {' or '.join(names)}"
     if len(near) > 1 and off[near[1]] < CLEARLY * off[near[0]]:
         return UnitGuess(None, why, sizes=tuple(1 / k for k in near))
     why = why.replace(" or ", ", not ", 1)
     return UnitGuess("deg/s", why, 1 / near[0])
-
-
-def turning_of_gravity(rate: np.ndarray, force: np.ndarray, period: float) -> float | None:
-    """How many rad/s one of the rates (n, 3) is by what the forces (n, 3) turn; None where they
-    turn with something else, or not at all.
-    """
-    lengths = [max(round(block / period), 2) for block in BLOCKS]
-    found = [(*_turning(rate, force, length, period), length) for length in lengths]
-    slope, correlation, length = max(found, key=lambda each: each[1])
-    return _whole_turns(rate, force, length, period, slope) if correlation > SURE else None
-
-
-def _turning(
-    rate: np.ndarray, force: np.ndarray, length: int, period: float
-) -> tuple[float, float]:
-    """Slope and correlation of the change of the force on that which the rate makes.
-
-    Both are means of blocks of ``length`` samples.
-    """
-    count = min(len(rate), len(force)) // length
-    if count < 8:
-        return 0.0, 0.0
-    w, f = (v[: count * length].reshape(count, length, 3).mean(axis=1) for v in (rate, force))
-    between, turn = 0.5 * (f[1:] + f[:-1]), 0.5 * (w[1:] + w[:-1]) * length * period
-    made, seen = -np.cross(turn, between), np.diff(f, axis=0)
-    size = np.linalg.norm(between, axis=1)
-    middle = np.nanmedian(size) if np.isfinite(size).any() else 0.0
-    kept = np.all(np.isfinite(made) & np.isfinite(seen), axis=1) & (
-        np.abs(size - middle) < 0.2 * middle
-    )
-    made, seen = made[kept].ravel(), seen[kept].ravel()
-    power = float(made @ made) * float(seen @ seen)
-    if len(made) < 24 or power <= 0:
-        return 0.0, 0.0
-    return float(made @ seen) / float(made @ made), float(made @ seen) / np.sqrt(power)
-
-
-def _whole_turns(
-    rate: np.ndarray, force: np.ndarray, length: int, period: float, slope: float
-) -> float:
-    """The ``slope`` of ``_turning`` for turns of any size: -w x f is the change of small ones, and
-    of those of 1 rad between two means it makes it a quarter too large.
-
-    The scale k of the rates is sought at which two neighbouring means agree, each over ``length``
-    samples that were turned, by k w, to where the two blocks meet. Where it is none near the slope,
-    as of a log that rests but for a moment, the slope counts.
-    """
-    step, start = 1e-3, slope
-    for _ in range(TRIES):
-        apart = _apart(rate, force, length, period, slope)
-        more = _apart(rate, force, length, period, slope * (1 + step))
-        size = np.linalg.norm(apart, axis=1)
-        kept = np.isfinite(size) & (size < 3 * np.nanmedian(size))
-        change = ((more - apart) / (slope * step))[kept].ravel()
-        power = float(change @ change)
-        if not power > 0:
-            break
-        before, slope = slope, slope - float(change @ apart[kept].ravel()) / power
-        if abs(slope - before) < step * abs(before) or not slope > 0:
-            break
-    return slope if 1 / LIKE < slope / start < LIKE else start
-
-
-def _apart(
-    rate: np.ndarray, force: np.ndarray, length: int, period: float, scale: float
-) -> np.ndarray:
-    """By how much the mean force (m, 3) of a block and that of the block before it differ, in the
-    axes that the body has between the two.
-    """
-    count = min(len(rate), len(force)) // length
-    w, f = (v[: count * length].reshape(count, length, 3) for v in (rate, force))
-    turn = Rotation.from_rotvec(0.5 * scale * period * np.nan_to_num(w).reshape(-1, 3))
-    halves = turn.as_matrix().reshape(count, length, 3, 3)
-    whole, at_start = np.broadcast_to(np.eye(3), (count, 3, 3)), np.zeros((count, 3))
-    for k in range(length):
-        middle = whole @ halves[:, k]
-        at_start = at_start + np.einsum("nij,nj->ni", middle, f[:, k]) / length
-        whole = middle @ halves[:, k]
-    at_end = np.einsum("nji,nj->ni", whole, at_start)
-    return at_start[1:] - at_end[:-1]

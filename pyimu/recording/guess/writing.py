@@ -15,6 +15,10 @@ WIDTH = 46
 """Characters in front of a remark."""
 
 
+SIZED = {"gyro": ("deg/s", "(deg/s)", "mdps"), "accel": ("g", "g", "mg")}
+"""The unit of a count's size, as it stands in a map and in data sheets."""
+
+
 @dataclass(frozen=True)
 class MapGiven:
     """A map that is there already: its ``data``, and the name of the ``file`` that it is for."""
@@ -76,11 +80,14 @@ def text_of(proposals: Sequence[Proposal], given: MapGiven = MapGiven()) -> str:
     lines += _scales(first.guesses, "scale", given.scale(first.path))
     for other in others:
         lines += ["", "[[file]]", f"name = {_value(other.path.name)}"]
+        lines += [f"topic = {_value(other.topic)}"] if other.topic else []
         lines += [] if other.rate is None else [_rate(other.rate)]
         lines += ["", "[file.columns]", *_columns(other.guesses)]
         lines += _scales(other.guesses, "file.scale", given.scale(other.path))
     for entry in given.files({p.path.name for p in proposals}):
         lines += ["", "[[file]]", *_entries(entry)]
+    if first.topic and "topics" not in given.data:
+        lines += ["", "[topics]", f"imu = {_value(first.topic)}"]
     if "topics" in given.data:
         lines += ["", "[topics]", *_entries(given.data["topics"])]
     notes = [note for p in proposals for note in p.notes]
@@ -128,8 +135,8 @@ def _scales(guesses: Sequence[Guess], table: str, given: Mapping[str, Any]) -> l
     open_sizes = {g.group: g for g in guesses if g.sizes}
     lines += [
         _remarked(
-            f'# {group} = {{value = {size:.10g}, unit = "deg/s"}}',
-            f"{1 / size:.4g} LSB/(deg/s), {1000 * size:.4g} mdps/LSB",
+            f'# {group} = {{value = {size:.10g}, unit = "{SIZED[group][0]}"}}',
+            f"{1 / size:.4g} LSB/{SIZED[group][1]}, {1000 * size:.4g} {SIZED[group][2]}/LSB",
         )
         for group, g in open_sizes.items()
         for size in g.sizes

@@ -8,8 +8,11 @@ import numpy as np
 from scipy.special import stdtr
 
 from pyimu.errors import Finding
-from pyimu.recording.guess.numbers import turning_of_gravity
+from pyimu.recording.guess.gravity_turning import turning_of_gravity
+from pyimu.recording.guess.numbers import SENSITIVITIES
 from pyimu.recording.quality.clipping import clipped
+from pyimu.recording.quality.resolution import comb_step
+from pyimu.recording.quality.vehicle_turns import speed_in_turns
 from pyimu.recording.readings import BY_CHANCE, READINGS, changed, likely, named
 from pyimu.recording.recording import Recording
 from pyimu.recording.turning import carried, turning_spans
@@ -30,6 +33,20 @@ SIZE_OFF = 0.5
 LEANS = np.pi / 6
 """rad; gravity turns so far in a body that is turned. The forces of one that only speeds up and
 brakes, and pitches a little by it, turn less, and as rates do that are far too small."""
+
+TWICE_TURNED = tuple(float(np.radians(np.radians(1 / lsb))) for lsb in SENSITIVITIES)
+"""rad/s; one count of known gyros whose size in rad/s was taken for deg/s."""
+
+SAME_STEP = 3e-4
+"""Relative difference of two steps that are one: of other steps of their size three in a thousand
+are so near to one of those."""
+
+STEPS_SEEN = 100_000
+"""Rows that are looked at for it."""
+
+FASTEST, FASTER = 150.0, 1500.0
+"""m/s; no vehicle on the ground is as fast as the first, which is 57 times 2.6 m/s. Beyond the
+second a gyro may show what a force does to it: 0.3 deg/s/g looks like 1,900 m/s."""
 
 CHANGES = np.concatenate([READINGS, [np.eye(3) / unit for unit in UNITS[1:]]])
 """(50, 3, 3), times the stated rates those of a reading."""
@@ -72,7 +89,12 @@ def _factor(recording: Recording, reading: int | None) -> float:
         factor = UNITS[reading - len(READINGS) + 1]
     else:
         factor = 1.0 if reading else _factor_by_turning(recording)
-    return 1.0 if factor < 1 and not _leans(recording.accel) else factor
+    if factor < 1 and not _leans(recording.accel):
+        factor = 1.0
+    if factor != 1 or reading:
+        return factor
+    small = _goes_too_fast(recording) or _has_a_step_in_radians(recording.gyro)
+    return 1 / DEGREE if small else 1.0
 
 
 def _by_gravity(recording: Recording) -> int | None:
@@ -154,6 +176,28 @@ def _factor_by_turning(recording: Recording) -> float:
     if slope is None or not slope > 0:
         return 1.0
     return next((u for u in UNITS if 1 / LIKE < 1 / slope / u < LIKE), 1.0)
+
+
+def _goes_too_fast(recording: Recording) -> bool:
+    """Whether the force in a vehicle's turns is that of one 57 times as fast, as where its rates
+    are too small.
+    """
+    if recording.accel is None or _leans(recording.accel):
+        return False
+    rate = _within_range(recording).gyro
+    speed = speed_in_turns(rate, recording.accel, recording.sample_period)
+    return speed is not None and FASTEST < speed < FASTER
+
+
+def _has_a_step_in_radians(gyro: np.ndarray) -> bool:
+    """Whether the rates rad/s (n, 3) lie on multiples of a gyro's count twice turned from degrees
+    to radians: its numbers in rad/s were called deg/s. At rest nothing else tells it.
+    """
+    for column in gyro[:STEPS_SEEN].T:
+        step = comb_step(column)
+        if step is None or not any(abs(step / own - 1) < SAME_STEP for own in TWICE_TURNED):
+            return False
+    return True
 
 
 def _leans(force: np.ndarray) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 from scipy.optimize import minimize_scalar
 
-from pyimu.positive import cholesky, solve
+from pyimu.numerics.positive import cholesky, solve
 
 STATES = 3
 """Value, slope and curvature: the least that gives a course its rate."""

@@ -9,6 +9,7 @@ from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
+from pyimu.display.silent import silent
 from pyimu.errors import UserError
 from pyimu.rover.campaign.report.deliver import deliver
 from pyimu.rover.campaign.report.words import lines
@@ -16,7 +17,6 @@ from pyimu.rover.campaign.settings import Settings
 from pyimu.rover.campaign.summary import Summary
 from pyimu.rover.campaign.table import Folder, batches
 from pyimu.rover.campaign.workers import Batch, here, on_dask
-from pyimu.silent import silent
 
 Say = Callable[..., None]
 

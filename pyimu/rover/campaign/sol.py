@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from pyimu.display.silent import silent
 from pyimu.files import write_json
 from pyimu.rover.campaign.campaign import Done, Say, duration, run
 from pyimu.rover.campaign.motion import SOL
 from pyimu.rover.campaign.report.as_json import share_of
 from pyimu.rover.campaign.report.words import claim
 from pyimu.rover.campaign.settings import Settings
-from pyimu.silent import silent
 
 HOURLY = 3600.0
 """s between the headings of a sensor that is asked once an hour."""

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pyimu.laws import chi2
+from pyimu.numerics.laws import chi2
 from pyimu.report.figures import (
     AFTER,
     BEFORE,

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.errors import UserError
-from pyimu.held import PREFIX, held, sweep
+from pyimu.files.held import PREFIX, held, sweep
 
 LARGEST_TEXT = 16 << 20
 """Bytes of a part file or a column map, at most."""

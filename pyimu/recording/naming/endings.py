@@ -12,6 +12,7 @@ from pyimu.recording.spelling import PAIRED, unit_of
 RUN_TOGETHER = {"rads": "rad/s", "radps": "rad/s", "degs": "deg/s", "degps": "deg/s"} | {
     "ms2": "m/s^2",
     "mps2": "m/s^2",
+    "mss": "m/s^2",
 }
 """Units without their sign of division, as names in programs have them."""
 

@@ -1,0 +1,1 @@
+"""Small numerics that scipy and LAPACK have, without what these cost in a short run."""

@@ -1,0 +1,98 @@
+"""Which column of a foreign log is its time, and in which unit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from pyimu.recording.counter import Unwrapped
+from pyimu.recording.formats.reader import Reader
+from pyimu.recording.guess.first_rows import Numbers
+from pyimu.recording.guess.guessed import Guess, Proposal
+from pyimu.recording.guess.numbers import SECONDS, UnitGuess, time_unit
+from pyimu.recording.naming.name import Name, named
+from pyimu.recording.naming.words import COUNTERS, TRUTHS
+
+CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
+"""Of a column of them."""
+
+
+def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None) -> float | None:
+    """Add the time, or else the ``rate``; gives the sample period [s] where it is known."""
+    names = [named(cell) for cell in reader.header]
+    clocks = {k for k, cell in enumerate(reader.header) if cell in reader.clocks}
+    at = [k for k in numbers.positions if names[k].is_time and not set(names[k].words) & TRUTHS]
+    at = at or sorted(clocks)
+    if not at:
+        at = [k for k in numbers.positions[:2] if rises(numbers.of([k]))]
+    candidates = []
+    for k in at:
+        values = Unwrapped(*SECONDS.values()).add(numbers.of([k]))
+        if not names[k].is_time and _counts_rows(values):
+            found.notes.append(f"{reader.header[k]} counts the rows, and is no time")
+        elif rises(values) or (k in clocks and _mean_rate(values) is not None):
+            guess = CLOCK if k in clocks else _time_guess(names[k], values)
+            candidates.append((k, values, guess))
+    if not candidates:
+        found.rate = rate or reader.rate
+        return None if found.rate is None else 1 / found.rate
+    k, values, guess = min(
+        candidates,
+        key=lambda c: (
+            c[2].unit is None,
+            bool(COUNTERS & set(names[c[0]].words)),
+            _unevenness(c[1]),
+            "stamp" not in names[c[0]].words,
+            "date" not in c[2].why,
+        ),
+    )
+    for other, _, its in candidates:
+        if other != k:
+            found.notes.append(f"{reader.header[other]} may be the time, too ({its.why})")
+    found.add([Guess(reader.header[k], "time", guess.unit, guess.why, guess.value)])
+    if k in clocks and not rises(values):  # whole seconds, which reading divides among their rows
+        return 1 / (_mean_rate(values) or 1.0)
+    one = SECONDS.get(guess.unit or "", 0.0) * (guess.value or 1.0)
+    return _period(values) * one or None
+
+
+def _mean_rate(values: np.ndarray) -> float | None:
+    """Rows a second by times [s] that stand still for many rows, None where they fall or stay."""
+    known = values[np.isfinite(values)]
+    span = float(known[-1] - known[0]) if len(known) > 1 else 0.0
+    return (len(known) - 1) / span if span > 0 and np.all(np.diff(known) >= 0) else None
+
+
+def rises(values: np.ndarray) -> bool:
+    step = np.diff(values[np.isfinite(values.astype(float))])
+    return len(step) > 1 and bool(np.all(step >= 0)) and bool(np.mean(step > 0) > 0.5)
+
+
+def _counts_rows(values: np.ndarray) -> bool:
+    return len(values) > 1 and bool(np.all(np.diff(values.astype(float)) == 1))
+
+
+def _period(values: np.ndarray) -> float:
+    step = np.diff(values)
+    return float(np.median(step[step > 0]))
+
+
+def _unevenness(values: np.ndarray) -> float:
+    """Scatter of the steps in periods, in powers of 1.3: of two clocks that of the sensor is the
+    finer one.
+    """
+    step = np.diff(values).astype(float)
+    scatter = float(np.std(step) / max(np.median(step), 1e-300))
+    return round(np.log(max(scatter, 1e-6)) / np.log(1.3))
+
+
+def _time_guess(name: Name, values: np.ndarray) -> UnitGuess:
+    """The stated unit, but where its rate is none that a sensor has."""
+    seen = time_unit(values)
+    if name.clock not in SECONDS:
+        return seen
+    rate = 1 / (_period(values) * SECONDS[name.clock])
+    if 1e-3 <= rate <= 1e6:
+        return UnitGuess(name.clock, f"the header says {name.said}; {rate:.5g} Hz")
+    return replace(seen, why=f"{seen.why} (the header says {name.said}: {rate:.3g} Hz)")

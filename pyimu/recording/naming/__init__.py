@@ -1,0 +1,1 @@
+"""What the names of columns say: words, axes and units, vectors, references."""

@@ -1,0 +1,170 @@
+"""Vectors among the names of columns: gyro, accelerometer and magnetometer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from pyimu.recording.naming.endings import fits
+from pyimu.recording.naming.name import WORD, Name, named
+from pyimu.recording.naming.words import (
+    DERIVED,
+    ELSE,
+    LINEAR,
+    NO_SAMPLES,
+    ONE_VECTOR,
+    PAIRS,
+    RATED,
+    RAW,
+    ROLLS,
+    STRONG,
+    TOLD_BY_UNIT,
+    TRUTHS,
+)
+
+
+@dataclass(frozen=True)
+class Triad:
+    """Positions of the x, y and z columns of one vector, and how surely it is of ``group``."""
+
+    group: str
+    names: tuple[Name, Name, Name]
+    positions: tuple[int, int, int]
+    score: int
+
+    @property
+    def unit(self) -> str | None:
+        """The unit that all three state, None where it is none of such a vector."""
+        units = {name.unit for name in self.names}
+        unit = units.pop() if len(units) == 1 else None
+        return unit if unit is not None and fits(unit, self.group) else None
+
+
+def triads(header: Sequence[str], file: str = "") -> list[Triad]:
+    """The vectors in a header, those that are the surest first.
+
+    Of columns that are called by their axis alone the name of the ``file`` says what they are, or
+    else their unit.
+    """
+    stems: dict[tuple[str, ...], dict[str, int]] = {}
+    names = [named(cell) for cell in header]
+    hint = tuple(word.casefold() for word in WORD.findall(file.partition(".")[0]))
+    names = [n if n.words or not n.axis else replace(n, words=hint) for n in names]
+    if [name.cell for name in names] in (ONE_VECTOR, ONE_VECTOR[:3]):
+        pairs = zip(names[-3:], "xyz", strict=True)
+        names = [*names[:-3], *(replace(n, words=hint, axis=a) for n, a in pairs)]
+    names = _with_turns(_with_rolls(_with_elements(names)))
+    for position, name in enumerate(names):
+        if name.axis:
+            stems.setdefault(name.words, {}).setdefault(name.axis, position)
+    found, by_unit = [], []
+    for stem, axes in stems.items():
+        if not all(axis in axes for axis in "xyz") or "w" in axes or "3" in axes:
+            continue
+        at = (axes["x"], axes["y"], axes["z"])
+        three = (names[at[0]], names[at[1]], names[at[2]])
+        sure = {group: three[0].of(group) for group in STRONG}
+        for group in STRONG:
+            score = 2 * _sureness(three, group, sure, stem in ((), hint))
+            if score:
+                score += bool(set(stem) & RAW) - 3 * bool(set(stem) & (DERIVED | TRUTHS))
+                found.append(Triad(group, three, at, score))
+        if stem not in ((), hint) and not any(sure.values()) and not set(stem) & NO_SAMPLES:
+            by_unit += [Triad(g, three, at, 4) for g in TOLD_BY_UNIT if _fit(three, g)]
+    there = {triad.group for triad in found if triad.score > 0}
+    found += [triad for triad in by_unit if triad.group not in there]
+    return sorted(found, key=lambda triad: -triad.score)
+
+
+def _fit(three: Sequence[Name], group: str) -> bool:
+    """Whether three columns state units that a vector of ``group`` can have."""
+    return all(name.unit is not None and fits(name.unit, group) for name in three)
+
+
+def _sureness(three: Sequence[Name], group: str, sure: Mapping[str, int], nameless: bool) -> int:
+    """How surely three columns are of ``group``: 0 to 2, as ``Name.of``, whose words are ``sure``.
+
+    A unit that fits is as good as a word beside a letter, as in ``wx(deg/s)``; ``nameless`` columns
+    are what their unit says, less surely.
+    """
+    if any(sure.values()):
+        return 2 if sure[group] and _fit(three, group) else sure[group]
+    return int(nameless and _fit(three, group))
+
+
+def _with_elements(names: Sequence[Name]) -> list[Name]:
+    """The names; two columns that are called 1 and 2 are further elements of the one before them,
+    as in old tables of GoPro's: ``Gyroscope [rad/s]``, ``1``, ``2``.
+    """
+    found = list(names)
+    for k in range(len(names) - 2):
+        first, *others = names[k : k + 3]
+        if first.words and not first.axis and [n.cell.strip() for n in others] == ["1", "2"]:
+            three = zip((first, *others), "xyz", strict=True)
+            found[k : k + 3] = [replace(first, cell=n.cell, axis=a) for n, a in three]
+    return found
+
+
+def are_alike(names: Sequence[Name]) -> bool:
+    """Whether names may be those of one vector: what words of three letters they have are the same
+    ones. A track, a speed and a rate of climb are none.
+    """
+    long = [{w for w in name.words if len(w) > 2 and not w.isdigit()} for name in names]
+    return all(words == long[0] for words in long)
+
+
+def _with_rolls(names: Sequence[Name]) -> list[Name]:
+    """The names; ``p``, ``q`` and ``r`` are axes where all three are there."""
+    rolls = [(n.words[:-1], n.words[-1]) for n in names if not n.axis and n.words]
+    whole = {stem for stem, _ in rolls if all((stem, letter) in rolls for letter in ROLLS)}
+    return [
+        replace(n, words=(*n.words[:-1], "pqr"), axis=ROLLS[n.words[-1]])
+        if not n.axis and n.words and n.words[-1] in ROLLS and n.words[:-1] in whole
+        else n
+        for n in names
+    ]
+
+
+def _with_turns(names: Sequence[Name]) -> list[Name]:
+    """The names; of three rates of roll, pitch and yaw these are the axes."""
+    found, rates = list(names), PAIRS["gyro"][1]
+    stems: dict[tuple[str, ...], dict[str, int]] = {}
+    for position, name in enumerate(names):
+        turn = next((word for word in name.words if word in RATED), None)
+        if turn is not None and not name.axis and set(name.words) & rates:
+            rest = tuple(word for word in name.words if word != turn)
+            stems.setdefault(rest, {}).setdefault(RATED[turn], position)
+    for rest, axes in stems.items():
+        for axis, position in axes.items() if len(axes) == 3 else ():
+            found[position] = replace(names[position], words=("angular", *rest), axis=axis)
+    return found
+
+
+def others(header: Sequence[str], taken: Iterable[int]) -> list[tuple[int, int, int]]:
+    """Positions of the vectors in a header that no word tells of, those of ``taken`` left out."""
+    away, known = set(taken), DERIVED | TRUTHS | ELSE
+    names = enumerate(_with_turns(_with_rolls([named(cell) for cell in header])))
+    return vectors({k: n for k, n in names if k not in away and not set(n.words) & known})
+
+
+def vectors(names: Mapping[int, Name]) -> list[tuple[int, int, int]]:
+    """Positions of the vectors among names by their positions: x, y and z of one name, and no other
+    axis.
+    """
+    stems: dict[tuple[str, ...], dict[str, int]] = {}
+    for position, name in names.items():
+        if name.axis:
+            stems.setdefault(name.words, {}).setdefault(name.axis, position)
+    whole = [axes for axes in stems.values() if set(axes) == set("xyz")]
+    return [(axes["x"], axes["y"], axes["z"]) for axes in whole]
+
+
+def surest(found: Iterable[Triad], group: str) -> tuple[Triad | None, list[Triad]]:
+    """The surest vector of a group, and the others that may be it.
+
+    A force that is called linear is none of them beside one that is not.
+    """
+    own = [triad for triad in found if triad.group == group and triad.score > 0]
+    whole = [triad for triad in own if not set(triad.names[0].words) & LINEAR]
+    own = whole if whole and group == "accel" else own
+    return (own[0], own[1:]) if own else (None, [])

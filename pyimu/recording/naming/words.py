@@ -1,0 +1,106 @@
+"""Words in the names of columns, and what they say."""
+
+from __future__ import annotations
+
+STRONG = {
+    "gyro": {"gyr", "gyro", "gyros", "gyroscope", "omega", "angvel"},
+    "accel": {"acc", "acce", "accel", "accl", "accelerometer", "acceleration", "gforce"},
+    "mag": {"mag", "magn", "magnetometer", "magnetic"},
+}
+"""Words that say what a vector is."""
+
+PAIRS = {"gyro": ({"angular", "ang", "rotation", "turn"}, {"velocity", "rate", "rates", "vel"})}
+"""Words that say it together."""
+
+ROLLS = {"p": "x", "q": "y", "r": "z"}
+"""The rates about the axes, as aeroplanes have them, where all three are there."""
+
+RATED = {"roll": "x", "pitch": "y", "yaw": "z"}
+"""Words for the axes before one for a rate, as vehicles have them: ``YawRate``."""
+
+WEAK = {
+    "gyro": {"w", "g", "gy", "rate", "rates", "pqr"},
+    "accel": {"a", "ac", "f"},
+    "mag": {"m", "b", "h"},
+}
+"""Letters and words that may stand for it, where they are the first word of the name."""
+
+TIMES = {"time", "times", "timestamp", "timestamps", "stamp", "stamps", "t", "ts", "clock"}
+"""Words for times, behind which a unit of few letters is one."""
+
+MORE_TIMES = {"seconds", "epoch", "epoc", "elapsed", "sampletimefine", "tow"}
+"""Further ones: ``tow`` is the time of the week of satellites."""
+
+TICKS = {"millis": "ms", "micros": "us", "nanos": "ns", "cts": "ms"}
+"""Words for times that say their unit, as Arduino's functions are called; ``cts`` is that of a
+camera's film in the tables that are made of GoPro's."""
+
+STEPS = {"delta", "diff", "interval"}
+"""Words beside those of times for the time from row to row."""
+
+COUNTERS = {"tick", "ticks", "counter", "count"}
+"""Words beside those of times for one that counts in a unit of its own, such as DJI's
+``Clock:Tick#``."""
+
+CLOCKS = ("s", "ms", "us", "ns", "min", "h", "day")
+"""Units of times."""
+
+TEMPERATURES = {"temp", "temperature", "celsius", "imutemp"}
+
+LETTERS = {"c": "degC", "k": "K"}
+"""Letters for the unit of a temperature, where they end its name: ``temp_c``."""
+
+INERTIAL = {"imu", "mpu", "mems", "inertial", "imutemp"}
+"""Words for the unit whose thermometer it is, beside those of its sensors."""
+
+TRUTHS = {"ref", "reference", "vicon", "opt", "optical", "omc", "mocap", "truth", "groundtruth"} | {
+    "gt",
+    "optitrack",
+    "qualisys",
+}
+"""Words for a reference."""
+
+DERIVED = (
+    {"est", "estimated", "estimate", "filtered", "filt", "user", "free", "gravity", "global"}
+    | {"world", "bias", "cov", "covariance", "var", "std", "offset", "err", "error", "delta"}
+    | {
+        "low",
+        "lower",
+        "dv",
+        "dq",
+        "increment",
+        "set",
+        "cmd",
+        "target",
+        "kalman",
+        "fused",
+        "uncalibrated",
+        "lin",
+    }
+)
+"""Words for what is no raw sample; ``low`` is the lower half of a number of 32 bits."""
+
+NO_SAMPLES = DERIVED | TRUTHS
+"""Words for what no sensor measures."""
+
+RAW = {"raw"}
+
+SAID_OF_AXES = {"axis", "axes", "value", "values"}
+"""Words beside an axis that say nothing."""
+
+BEHIND = {"cal", "calibrated", "raw"}
+"""Words that may stand behind the axis."""
+
+LINEAR = {"linear", "lin", "linacc", "linacce"}
+"""Words for a force without gravity, where one with it is beside it; ROS calls a force so that is
+alone."""
+
+ELSE = {"pos", "position", "vel", "velocity", "speed", "angle", "euler"}
+"""Words for vectors that no inertial sensor measures."""
+
+ONE_VECTOR = [f"column {k}" for k in range(1, 5)]
+"""A table without names of a time and a vector, which its file's name may tell: ``gyro.csv``; the
+time may be missing."""
+
+TOLD_BY_UNIT = ("gyro", "mag")
+"""Vectors whose units nothing else has, whatever its name: ``AsX(°/s)``, ``HX(uT)``."""
