@@ -144,7 +144,10 @@ def find_rest(recording: Recording, gravity: float = STANDARD_GRAVITY) -> Rest:
     other = None
     for length in LENGTHS if declared is None else ():
         stop = _without_turn(recording, _still_until(recording, length))
-        if stop <= 3 or _drives(recording, stop):
+        last = stop - _rows(recording, LENGTHS[0])
+        if _drives(recording, 0, stop) or _drives(recording, max(last, 0), stop):
+            stop = _before_drive(recording, stop)
+        if stop <= 3:
             continue
         if _is_level(recording, stop, gravity):
             return _rest(recording, stop, gravity, seen=True)
@@ -244,11 +247,20 @@ def _size(recording: Recording, stop: int) -> float | None:
     return float(np.linalg.norm(force.mean(axis=0))) if len(force) and len(rate) else None
 
 
-def _drives(recording: Recording, stop: int) -> bool:
-    """Whether a body that looks still before the row ``stop`` has a speed there, and drives on."""
+def _drives(recording: Recording, start: int, stop: int) -> bool:
+    """Whether a body that looks still from a row to another has a speed there, and drives on."""
     speed = getattr(recording, "speed", None)
-    known = np.zeros(0) if speed is None else speed[:stop][np.isfinite(speed[:stop])]
+    known = np.zeros(0) if speed is None else speed[start:stop]
+    known = known[np.isfinite(known)]
     return bool(len(known)) and abs(float(np.median(known))) > DRIVES
+
+
+def _before_drive(recording: Recording, stop: int) -> int:
+    """The row before ``stop`` at which the first speed is above ``DRIVES``; 0 of a body that drives
+    from the start. What begins gently may look still for longer than it is.
+    """
+    moves = np.flatnonzero(np.abs(np.nan_to_num(recording.speed[:stop])) > DRIVES)
+    return int(moves[0]) if recording.time[moves[0]] - recording.time[0] > LENGTHS[0] else 0
 
 
 def _rest(

@@ -21,18 +21,24 @@ import numpy as np
 from numba import njit
 from scipy.spatial.transform import Rotation
 
-from pyimu.ins.detector import FORCE_KEPT, FORCE_STAYS, Noise
+from pyimu.ins.detector import FORCE_KEPT, Noise
+from pyimu.ins.pushes import FORCE_STAYS
 from pyimu.units import STANDARD_GRAVITY
 
 BIAS = 0.5
 """m/s^2; standard deviation of the null of an accelerometer that nobody calibrated (50 mg)."""
+
+BESIDE = 10.0
+"""s; over which the mean rate of a moment is taken at most: a bias stays so long."""
 
 GAIN = 0.02
 """That of a scale factor and a misalignment of a gyro, and of an accelerometer, likewise."""
 
 
 class Moment(Protocol):
-    """The mean ``rate`` and ``force`` (3,) of so many ``rows`` at which nothing pushes."""
+    """The mean ``force`` (3,) of so many ``rows`` at which nothing pushes, and the mean ``rate``
+    (3,) of those that are within ``BESIDE`` of what lies between.
+    """
 
     @property
     def rate(self) -> np.ndarray: ...
@@ -71,7 +77,7 @@ def change_of_velocity(
     of_ends = float(np.mean(noise.force**2)) * (1 / first.rows + 1 / second.rows)
     noise, n = _shaken(gyro, accel, noise), len(gyro)
     share = np.arange(1, n + 1) / n
-    rates = gyro - (first.rate + second.rate) / 2
+    rates = gyro - first.rate - share[:, None] * (second.rate - first.rate)
     turns = _products(Rotation.from_rotvec(rates * period).as_matrix())
     force = np.einsum("nij,nj->ni", turns, accel)
     velocity = np.cumsum(force - first.force, axis=0) * period
@@ -88,7 +94,8 @@ def change_of_velocity(
         axis=2,
     )
     told = np.hstack([spin[-1], _skew(shown) @ of_gains[-1], _skew(shown), np.eye(3)])
-    prior = _prior(noise, 1 / first.rows + 1 / second.rows, period, n)
+    of_rates = sum(noise.of_mean(min(m.rows, round(BESIDE / period)), period) for m in ends)
+    prior = _prior(noise, of_rates, period, n)
     own = told * prior @ told.T + of_ends * np.eye(3)
     gain = np.linalg.solve(own, told * prior).T
     known = np.diag(prior) - gain @ own @ gain.T
@@ -109,13 +116,13 @@ def _shaken(gyro: np.ndarray, accel: np.ndarray, noise: Noise) -> Noise:
     return replace(noise, rate=np.maximum(noise.rate, rate), force=np.maximum(noise.force, force))
 
 
-def _prior(noise: Noise, ends: float, period: float, n: int) -> np.ndarray:
-    """Variances (18,) of the bias, the gyro's gains, what its noise and its bias, of the means at
-    the ``ends``, turn in all, and the change of the accelerometer's error.
+def _prior(noise: Noise, of_rates: np.ndarray, period: float, n: int) -> np.ndarray:
+    """Variances (18,) of the bias, the gyro's gains, what its noise and its bias turn in all, that
+    is known at the ends to ``of_rates`` (3,), and the change of the accelerometer's error.
     """
     seconds = n * period
-    turned = noise.rate**2 * (period * seconds + ends * seconds**2 / 4)
-    turned = turned + noise.walk**2 * seconds**3 / 3
+    turned = noise.rate**2 * period * seconds + of_rates * seconds**2 / 4
+    turned = turned + noise.walk**2 * seconds**3 / 12
     sizes = [np.full(3, BIAS**2), np.full(9, GAIN**2), turned, np.full(3, FORCE_STAYS**2)]
     return np.concatenate(sizes)
 
@@ -128,7 +135,8 @@ def _left(
     the body has turned, which a push and its end do not cancel.
     """
     white, seconds = float(np.mean(noise.force**2)), len(rates) * period
-    tipped = STANDARD_GRAVITY**2 * float(np.mean(noise.rate**2)) * period * seconds**3 / 12
+    tipped = float(np.mean(noise.rate**2)) * period * seconds**3 / 12
+    tipped = STANDARD_GRAVITY**2 * (tipped + float(np.mean(noise.walk**2)) * seconds**5 / 720)
     stays = (FORCE_STAYS * seconds / 2) ** 2
     way = min(float(np.sum(np.linalg.norm(rates, axis=1))) * period, 1.0)
     by_gains = (GAIN * way * float(np.linalg.norm(velocity, axis=1).max())) ** 2

@@ -19,7 +19,6 @@ from pyimu.recording.integration import integrated
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import CRAWL
-from pyimu.recording.reference.white_noise import white_noise
 from pyimu.units import STANDARD_GRAVITY
 
 ANY_UNIT = 2.0
@@ -49,10 +48,6 @@ JUMP = 1.0
 JUMPS_BY = 10.0
 """And how many times what it goes in that time at its largest speed but that of one step in a
 hundred."""
-
-MOVED, MOVED_BY, MOVED_AT = 0.1, 10.0, 0.05
-"""m; what a reference goes at least during a rest that is none; how many times its noise; and how
-fast, m/s: a receiver's position wanders by more than its noise, but no faster."""
 
 OTHER_SIZE = 2.0
 """Least factor between the sizes of two paths that may be a unit's: yards are metres to 9 %, and no
@@ -178,44 +173,22 @@ def findings(recording: Recording, rest: Rest, gravity: float) -> list[Finding]:
     return found
 
 
-def after(still: np.ndarray, reference: Reference | None, track: Track | None) -> list[Finding]:
-    """What the run showed; ``track`` is the best there is."""
+def after(
+    still: np.ndarray, reference: Reference | None, track: Track | None, moves: bool
+) -> list[Finding]:
+    """What the run showed; ``track`` is the best there is; ``moves`` says that rests are none."""
     out = []
     if not still.any():
         out.append(Finding("never_still", "", 1, {}))
     elif still.all():
         out.append(Finding("always_still", "", len(still), {}))
     if reference is not None and track is not None:
-        moves = list(rests_that_move(reference, still, track.time))
-        out += [*_jumps(reference, track.time), *moves]
+        out += _jumps(reference, track.time)
         fit = _Fit.of(reference, track)
         if fit is not None:
             # A rest that is none makes the path shorter: no unit of the reference does.
             out += [*_turned(fit, reference, track), *(() if moves else _sized(fit))]
     return out
-
-
-def rests_that_move(reference: Reference, still: np.ndarray, time: np.ndarray) -> Iterator[Finding]:
-    """Rests over which the reference, or measured positions as one, go a way that is no noise."""
-    place = reference.position[:, :2]
-    ends = [np.searchsorted(reference.rows, run) for run in runs(still)]
-    ends = [(a, b - 1) for a, b in ends if b - a > 1]
-    at = time[reference.rows]
-    ways = np.array([np.linalg.norm(place[b] - place[a]) for a, b in ends])
-    seconds = np.array([at[b] - at[a] for a, b in ends])
-    noise = np.hypot(*[white_noise(column[:, None]) for column in place.T])
-    least = max(MOVED, MOVED_BY * float(noise))
-    jumps = _jumped(reference, time)
-    jumped = np.array([np.any((jumps >= a) & (jumps < b)) for a, b in ends], dtype=bool)
-    wrong = np.flatnonzero((ways > least) & (ways > MOVED_AT * seconds) & ~jumped)
-    if len(wrong):
-        first = float(at[ends[wrong[0]][0]])
-        detail = {
-            "largest": float(ways[wrong].max()),
-            "seconds": float(seconds[wrong].sum()),
-            "first": first,
-        }
-        yield Finding("rest_moves", "stationary", len(wrong), detail)
 
 
 def constraint(found: Filtered, still: np.ndarray, free: Filtered) -> Iterator[Finding]:

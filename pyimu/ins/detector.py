@@ -16,6 +16,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from scipy.spatial.transform import Rotation
 
+from pyimu.ins.pushes import MOMENT, STEADY_GATE, unpushed
 from pyimu.ins.short_rests import between_swings
 from pyimu.numerics.laws import chi2
 from pyimu.recording.clock import runs
@@ -29,22 +30,6 @@ LEAST_ROWS = 5
 
 FALSE_ALARM = 1e-6
 """Probability that a window at rest is taken for one in motion, by chance."""
-
-STEADY_GATE = 25.0
-"""Squared difference of mean rate and bias over its variance, beyond which a still window is one of
-a steady turn, and of mean force and that of the rest before, beyond which it is one of a steady
-push."""
-
-FORCE_STAYS, FOLLOWED = 0.005, 30.0
-"""m/s^2, s; by how much the mean force of a body that rests may change, and the time over which it
-is the mean before: over minutes a temperature may change it more."""
-
-MOMENT, SETTLED = 1.5, 10.0
-"""s; for less the force of a body that drives may be that at rest, between speeding up and slowing
-down, and for longer it has no other one."""
-
-CANDIDATES = 200
-"""So many places of a still stretch at most are tried for its rest."""
 
 FORCE_KEPT = 0.03
 """m/s^2; standard deviation by which the error of an accelerometer changes from rest to rest in one
@@ -71,6 +56,15 @@ class Noise:
     walk: np.ndarray
     bias: np.ndarray
     shown: bool = True
+
+    def of_mean(self, rows: int, period: float) -> np.ndarray:
+        """Variance (3,) of a mean rate over so many ``rows`` beside the bias at either end."""
+        return self.rate**2 / rows + self.walk**2 * rows * period / 3
+
+    def longest_mean(self, period: float) -> int:
+        """Over how many rows a mean tells the bias at their end best: more only wander."""
+        best = np.sqrt(3 / period) * self.rate / np.fmax(self.walk, 1e-12)
+        return max(LEAST_ROWS, round(float(np.min(best))))
 
 
 def ratio(gyro: np.ndarray, accel: np.ndarray, noise: Noise, rows: int) -> np.ndarray:
@@ -170,12 +164,12 @@ def detect(
             waiting[:0] = [(start + a, start + b, not turns) for a, b in runs(parts)]
             continue
         mean = np.nanmean(gyro[start:stop], axis=0)
-        own = noise.rate**2 / (stop - start)
+        own = noise.of_mean(stop - start, period)
         away = max(float(time[start]) - at, 0.0)
         spread = own + variance_of_bias + noise.walk**2 * away
         force = np.mean(accel[start:stop], axis=0)
         if np.sum((mean - bias) ** 2 / spread) > STEADY_GATE + 3:
-            change = _changes_at(gyro[start:stop], noise.rate, rows)
+            change = _changes_at(gyro[start:stop], noise, rows, period)
             if change is not None:
                 waiting[:0] = [(start, start + change, one), (start + change, stop, one)]
                 continue
@@ -193,6 +187,8 @@ def detect(
             still[start:stop] = False
         else:
             known = variance_of_bias + noise.walk**2 * away
+            last = min(stop - start, noise.longest_mean(period))
+            mean, own = np.nanmean(gyro[stop - last : stop], axis=0), noise.of_mean(last, period)
             bias, variance_of_bias = _followed(bias, known, mean, own)
             at = float(time[stop - 1])
             if before is None or (stop - start) * period > MOMENT:
@@ -236,7 +232,7 @@ def _parted(
     parts = _unturned(rates, spread, rows)
     if parts.any() and not parts.all():
         return parts, True
-    return _unpushed(force, noise, rows, period), False
+    return unpushed(force, noise.force, rows, period), False
 
 
 def _unturned(rates: np.ndarray, spread: np.ndarray, rows: int) -> np.ndarray:
@@ -254,10 +250,11 @@ def _unturned(rates: np.ndarray, spread: np.ndarray, rows: int) -> np.ndarray:
     return np.append(np.repeat(still, rows), np.full(len(rates) - n * rows, still[-1]))
 
 
-def _changes_at(gyro: np.ndarray, std: np.ndarray, rows: int) -> int | None:
+def _changes_at(gyro: np.ndarray, noise: Noise, rows: int, period: float) -> int | None:
     """The sample of a still stretch at which the mean of its rates (n, 3) changes, None where it
     does not: where a turn begins or ends that is too slow for a window and for ``_unturned``. It is
-    that for which two means are likeliest beside one.
+    that for which two means are likeliest beside one whose bias walks: of two stretches that follow
+    each other the means of a walk differ by K sqrt(T / 3), with T that of both.
     """
     n = len(gyro)
     at = np.arange(rows, n - rows + 1)
@@ -265,69 +262,10 @@ def _changes_at(gyro: np.ndarray, std: np.ndarray, rows: int) -> int | None:
         return None
     sums = np.cumsum(np.nan_to_num(gyro), axis=0)
     before, after = sums[at - 1] / at[:, None], (sums[-1] - sums[at - 1]) / (n - at)[:, None]
-    weight = at * (n - at) / n
-    gain = weight * np.sum(((before - after) / std) ** 2, axis=1)
+    spread = noise.rate**2 * (n / (at * (n - at)))[:, None] + noise.walk**2 * n * period / 3
+    gain = np.sum((before - after) ** 2 / spread, axis=1)
     best = int(np.argmax(gain))
     return int(at[best]) if gain[best] > STEADY_GATE + 3 else None
-
-
-def _unpushed(force: np.ndarray, noise: Noise, rows: int, period: float) -> np.ndarray:
-    """Marks (n,) of a still stretch, less where its ``force`` (n, 3) has another mean than before.
-
-    A body that speeds up gently does so for a second or more, and the change within a window is
-    lost in noise: the means of blocks of ``rows`` show it. Where they are as before for a moment
-    alone, between speeding up and slowing down, it drives on; where they stay at another value for
-    ``SETTLED``, it stands askew.
-    """
-    n, block = len(force) // rows, rows * period
-    if n < 3:
-        return np.ones(len(force), dtype=bool)
-    means = force[: n * rows].reshape(n, rows, 3).mean(axis=1)
-    limit = (STEADY_GATE + 3) * (FORCE_STAYS**2 + 2 * float(np.mean(noise.force**2)) / rows)
-    short = max(2, round(MOMENT / block))
-    calm = _rest_among(means, short, limit)
-    still = np.empty(n, dtype=bool)
-    # its first may be in the end of a push
-    rest = np.median(means[calm : calm + short], axis=0)
-    still[calm:] = _as_before(means[calm:], rest, limit, block)
-    still[: calm + 1] = _as_before(means[calm::-1], rest, limit, block)[::-1]
-    for start, stop in runs(still):
-        if start > 0 and stop < n and stop - start < short:
-            still[start:stop] = False
-    # A push begins and ends within the blocks beside it.
-    still = ~maximum_filter1d(~still, 3, mode="nearest")
-    return np.append(np.repeat(still, rows), np.full(len(force) - n * rows, still[-1]))
-
-
-def _rest_among(means: np.ndarray, count: int, limit: float) -> int:
-    """Which of the means (n, 3) begins the rest: of ``count`` of them that follow each other and
-    are alike to the root of ``limit``, those whose force most others have. A run may begin in the
-    end of a push, and have another's top in its middle.
-    """
-    count = min(count, len(means))
-    starts = np.unique(np.linspace(0, len(means) - count, CANDIDATES).astype(int))
-    shared = np.empty(len(starts))
-    for i, k in enumerate(starts):
-        own = means[k : k + count]
-        off = np.sum((means - own.mean(axis=0)) ** 2, axis=1)
-        shared[i] = np.sum(off <= limit / 2) if np.all(off[k : k + count] <= limit / 2) else 0
-    return int(starts[np.argmax(shared)])
-
-
-def _as_before(means: np.ndarray, rest: np.ndarray, limit: float, block: float) -> np.ndarray:
-    """Marks (n,) of means (n, 3) over ``block`` s that are that of a ``rest`` (3,), followed over
-    ``FOLLOWED``, to the root of ``limit``; and of others that stay so for ``SETTLED``.
-    """
-    long = max(2, round(SETTLED / block))
-    still = np.ones(len(means), dtype=bool)
-    for k, mean in enumerate(means):
-        last = means[max(0, k - long + 1) : k + 1]
-        still[k] = np.sum((mean - rest) ** 2) <= limit
-        if still[k]:
-            rest = rest + (mean - rest) * block / FOLLOWED
-        elif len(last) == long and np.all(np.sum((last - last.mean(axis=0)) ** 2, 1) <= limit):
-            still[k - long + 1 : k + 1], rest = True, last.mean(axis=0)
-    return still
 
 
 @dataclass(frozen=True)

@@ -11,12 +11,16 @@ import numpy as np
 from pyimu.attitude.rest import Rest
 from pyimu.errors import Finding
 from pyimu.ins.detector import WINDOW
+from pyimu.ins.filter.updates import gate
 from pyimu.ins.filtered import Filtered
 from pyimu.ins.measured import Fixes
 from pyimu.ins.too_sure import too_sure
 from pyimu.ins.track import PositionError, Reference, Track, error_of
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
+
+GATE = gate(3)
+"""Normalised innovation squared of a velocity from which on it is weighed down."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +114,15 @@ class Outcome:
         """
         nis = self.filter.scalar("zupt_nis")
         return np.array([nis[a] for a, _ in self.later_stops if nis[a] > 0])
+
+    @property
+    def contradicting_stops(self) -> list[tuple[float, float]]:
+        """When, in s, a stop begins that contradicts the leg before it beyond the gate, and by how
+        many standard deviations the velocity is off there.
+        """
+        nis = self.filter.scalar("zupt_nis")
+        wrong = [a for a, _ in self.later_stops if nis[a] > GATE]
+        return [(float(self.time[a]), float(np.sqrt(nis[a] / 3))) for a in wrong]
 
     def mean_nis(self, name: str) -> float | None:
         """Mean normalised innovation squared of an update, None where there was none."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -32,7 +33,7 @@ from pyimu.ins.measured import (
     wrong_rows,
 )
 from pyimu.ins.result import NavigationResult
-from pyimu.ins.stances import standing
+from pyimu.ins.stances import standing, steps
 from pyimu.ins.stops import (
     ZUPT,
     clean_of,
@@ -44,6 +45,7 @@ from pyimu.ins.stops import (
 )
 from pyimu.ins.track import Reference, Track, reference_of
 from pyimu.ins.vibration import Samples, faster
+from pyimu.ins.witnesses import Witness, rests_that_move, witnesses_of
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as part_of
 from pyimu.numerics.threads import on_one_thread
@@ -60,6 +62,9 @@ the start, the filter, and the smoother over it."""
 SHAKEN = ("auto", "declared")
 """Where the rests come from of a log whose vibration at rest is taken out: the unit's samples are
 as they come, and a foot has no engine."""
+
+MOSTLY = 0.5
+"""Share of what looks like a rest at the start that must be one."""
 
 Say = Callable[..., None]
 
@@ -110,6 +115,47 @@ def run(
     _known("zupt", zupt, ZUPT)
     given, limits = _given(settings)
     checks.check_columns(recording, limits["gravity"])
+    how = {"method": method, "nhc": nhc, "fixes": fixes, "heading0": heading0, "say": say}
+    told = Told(position_std, velocity_std, position_age, velocity_age)
+    navigated = partial(
+        _run, recording, part, told=told, latitude=latitude, given=given, limits=limits, **how
+    )
+    vehicle = nhc or measures_speed(recording)
+    walked = 0 if zupt != "auto" or vehicle else _steps(recording, limits["gravity"])
+    if walked:
+        try:
+            found = navigated("foot")
+            on_foot = Finding("on_a_foot", "gyro", walked, {})
+            return replace(found, findings=(*found.findings, on_foot))
+        except UserError:
+            pass  # it contradicts them, or has velocities of its own
+    return navigated(zupt)
+
+
+def _steps(recording: Recording, gravity: float) -> int:
+    """How many steps a foot takes, 0 of a log of anything else."""
+    if recording.stationary is not None:
+        return 0
+    gyro, accel = (np.where(np.isfinite(v), v, np.nan) for v in (recording.gyro, recording.accel))
+    return steps(gyro, accel, gravity, recording.sample_period)
+
+
+def _run(
+    recording: Recording,
+    part: Part | str | os.PathLike | None,
+    zupt: str,
+    *,
+    method: str,
+    nhc: bool,
+    fixes: bool,
+    told: Told,
+    latitude: float | None,
+    heading0: float | None,
+    given: dict[str, Any],
+    limits: dict[str, float],
+    say: Say,
+) -> NavigationResult:
+    """The path with rests from ``zupt``; the other arguments are those of ``run``."""
     most = limits["top_acceleration"], limits["top_turn_rate"]
     recording, findings = checks.without_outliers(recording, *most)
     recording = with_equal_limits(recording)
@@ -118,20 +164,25 @@ def run(
     declared = None if part is None else part_of(part)
     findings += [] if declared is None else rate_of_part(recording, declared.sample_rate)
     as_given, recording = recording, without(recording, wrong)
-    told = Told(position_std, velocity_std, position_age, velocity_age)
-    job = _job(recording, declared, zupt, given, findings)
-    job = replace(job, fixes=_measured(job, zupt, fixes, told, limits["top_speed"]))
+    measured = fixes_of(recording, told, limits["top_speed"]) if fixes else None
+    reference = reference_of(recording)
+    witnesses = witnesses_of(recording, measured, reference)
+    job = _job(recording, declared, zupt, given, findings, witnesses)
+    if zupt == "foot":
+        measured = _of_stances(job, fixes, told, limits["top_speed"])
+    job = replace(job, fixes=measured)
     job = replace(job, latitude=latitude_of(recording, latitude), nhc=nhc)
     job = replace(job, wheels=nhc or measures_speed(recording))
-    reference = reference_of(recording)
     found, start = job.started(heading0, reference)
     job, found = _with_own_errors(job, found, start, findings, say)
-    findings += _of_fixes(job, found, start, zupt)
     findings += _of_constraint(job, found, start)
     if job.live:
         job = replace(job, still=found.scalar("at_rest") > 0.5)
+    moving = list(rests_that_move(recording.time, job.still, witnesses))
+    findings += [*moving, *_of_fixes(job, found, start, zupt, moving)]
     tracks = _tracks(METHODS if method == "all" else (method,), job, found, start, findings, say)
     best = tracks.get("smoother", tracks.get("filter"))
+    after = checks.after(job.still, reference, best, bool(moving))
     result = NavigationResult(
         recording.name,
         as_given,
@@ -140,7 +191,7 @@ def run(
         job.still,
         reference,
         part="" if part is None else job.part.name,
-        findings=(*recording.findings, *findings, *checks.after(job.still, reference, best)),
+        findings=(*recording.findings, *findings, *after),
         zupt=zupt,
         **job.told(start),
     )
@@ -150,17 +201,13 @@ def run(
     return replace(result, tracks=wider)
 
 
-def _measured(job: Job, zupt: str, fixes: bool, told: Told, top_speed: float) -> Fixes | None:
-    """The positions and velocities that correct the filter, a foot's stances among them."""
+def _of_stances(job: Job, fixes: bool, told: Told, top_speed: float) -> Fixes | None:
+    """The positions that correct the filter, where there are, and a foot's stances."""
     recording = job.recording
     if not fixes:
         recording = replace(recording, **dict.fromkeys(MEASURED))
-    if zupt == "foot":
-        bias = job.rest.rate if job.rest.seen else np.zeros(3)
-        recording = standing(recording, bias, job.gravity)
-    elif not fixes:
-        return None
-    return fixes_of(recording, told, top_speed)
+    bias = job.rest.rate if job.rest.seen else np.zeros(3)
+    return fixes_of(standing(recording, bias, job.gravity), told, top_speed)
 
 
 def _with_own_errors(
@@ -179,12 +226,14 @@ def _with_own_errors(
     return job, found
 
 
-def _of_fixes(job: Job, found: Filtered, start: Start, zupt: str) -> list[Finding]:
-    """What the run says of measured positions and velocities."""
-    fixes, moves = job.fixes, False
+def _of_fixes(
+    job: Job, found: Filtered, start: Start, zupt: str, moving: list[Finding]
+) -> list[Finding]:
+    """What the run says of measured positions and velocities, and of rests that are ``moving``."""
+    fixes = job.fixes
+    moves = any(f.column == "position" for f in moving)
     if fixes is not None and len(fixes.rows) > 1:
         positions = Reference(fixes.rows, fixes.position)
-        moves = any(checks.rests_that_move(positions, job.still, job.recording.time))
         if wrong_rows(found, "position", fixes).any():
             free = job.filtered(start, fixes=False).track("filter")
             checks.check_not_mirrored(job.recording.name, positions, free)
@@ -218,6 +267,7 @@ def _job(
     zupt: str,
     given: dict[str, Any],
     findings: list[Finding],
+    witnesses: list[Witness],
 ) -> Job:
     """The recording with its rests, before what else is known of it."""
     gravity = float(given["gravity"])
@@ -231,10 +281,10 @@ def _job(
     if clean.stationary is not None:
         still, _ = stops_of(clean, noise, zupt, turns)
     else:
-        marks, _ = stops_of(*samples.white(rest, noise), zupt, turns)
+        marks, _ = stops_of(*samples.white(rest, noise), zupt, turns, witnesses)
         still = faster(marks, samples.rows, len(clean))
     rest = replace(rest, rows=slice(0, rest.rows.stop * samples.rows))
-    if zupt in ("auto", "foot") and not still[rest.rows].any():
+    if zupt in ("auto", "foot") and np.mean(still[rest.rows]) < MOSTLY:
         # a steady drive, whose bias is that of the rests later on, by which they were found
         later = rest if still.any() and later is None else later
         rest = replace(rest, seen=False)

@@ -9,19 +9,17 @@ is another than that of the stretches beside it, turned as the gyro says, it is 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyimu.ins.between import Change, change_of_velocity
-from pyimu.ins.detector import FORCE_STAYS, STEADY_GATE, WINDOW, Noise
+from pyimu.ins.between import BESIDE, Change, change_of_velocity
+from pyimu.ins.detector import WINDOW, Noise
+from pyimu.ins.pushes import FORCE_STAYS, LEAST_SPEED, STEADY_GATE
 from pyimu.ins.short_rests import SWUNG
 from pyimu.recording.clock import runs
 
-LEAST_SPEED = 0.03
-"""m/s; a body that settles after a stop shows less. Assumed."""
-
-LONGEST = 60.0
+BETWEEN = 300.0
 """s; of what lies between two stretches: after more nothing is known of a change of velocity."""
 
 MISSING = 0.01
@@ -47,6 +45,16 @@ Assumed."""
 REST = float(np.log(2.0))
 """Log of how likely a rest is beside a drive where nothing tells. Assumed."""
 
+DRIFTS = 0.2
+"""Of a speed, by which it may change while it looks constant. Assumed."""
+
+TURNS = 2 * SWUNG
+"""rad/s; beside faster turns the gyro's gains and limits are no small errors."""
+
+ONE_MORE = 10.0
+"""Log of how much likelier a choice may be beside which another is possible: that of one rest more,
+as a log has that begins and ends at rest."""
+
 TURNED = 0.1
 """rad; a body that has turned by more and has the velocity that it had, has none."""
 
@@ -57,12 +65,22 @@ as it does in a gentle push. A push is even for less than the second."""
 
 @dataclass(frozen=True)
 class _Stretch:
-    """Rows ``start`` to ``stop`` that look still, the mean ``rate`` and ``force`` (3,) there."""
+    """Rows ``start`` to ``stop`` that look still, the mean ``rate`` and ``force`` (3,) there, and
+    whether it is known that it ``moves``.
+    """
 
     start: int
     stop: int
     rate: np.ndarray
     force: np.ndarray
+    moves: bool = False
+
+    @classmethod
+    def of(
+        cls, gyro: np.ndarray, accel: np.ndarray, start: int, stop: int, moves: bool = False
+    ) -> _Stretch:
+        means = (values[start:stop].mean(axis=0) for values in (gyro, accel))
+        return cls(start, stop, *means, moves)
 
     @property
     def rows(self) -> int:
@@ -93,6 +111,11 @@ class _Since:
             self.moved or bool(moves) or change.angle > TURNED,
         )
 
+    @property
+    def most_drift(self) -> float:
+        """m/s; by which a speed may change within a stretch: no drive goes on as evenly."""
+        return (LEAST_SPEED + DRIFTS * float(np.linalg.norm(self.velocity))) / 3
+
     def rests(self, top: float) -> float:
         """Log of how likely a rest is, with that velocity left, beside a drive of up to ``top``
         m/s. Where the body has not moved it rests or drives as it did before.
@@ -114,29 +137,52 @@ def driven(
     still: np.ndarray,
     noise: Noise,
     period: float,
+    moves: np.ndarray | None = None,
 ) -> list[tuple[int, int]]:
     """The stretches (start, stop) of ``still`` (n,) that are driven at a constant speed.
 
-    ``gyro`` rad/s and ``accel`` m/s^2 are (n, 3), ``period`` is in s.
+    ``gyro`` rad/s and ``accel`` m/s^2 are (n, 3), ``period`` is in s. Rows that ``moves`` (n,)
+    marks are known to be no rest, and are not among them.
     """
-    stretches = [
-        _Stretch(a, b, gyro[a:b].mean(axis=0), accel[a:b].mean(axis=0)) for a, b in runs(still)
-    ]
+    return drives_and_doubt(time, gyro, accel, still, noise, period, moves)[0]
+
+
+def drives_and_doubt(
+    time: np.ndarray,
+    gyro: np.ndarray,
+    accel: np.ndarray,
+    still: np.ndarray,
+    noise: Noise,
+    period: float,
+    moves: np.ndarray | None = None,
+) -> tuple[list[tuple[int, int]], int]:
+    """What ``driven`` gives, and how many of these may as well be the rests: where a body drives at
+    one speed again and again, only the start of a log tells that from its rests.
+    """
+    known = np.zeros(len(still), dtype=bool) if moves is None else moves & still
+    parts = [(*run, own) for own in (False, True) for run in runs(still & (known == own))]
+    stretches = [_Stretch.of(gyro, accel, *part) for part in sorted(parts)]
     changes = {
         (i, k): found
         for i in range(len(stretches))
         for k in range(i + 1, min(i + 1 + MOST_PUSHED, len(stretches)))
         if (found := _change(time, gyro, accel, (stretches[i], stretches[k]), noise, period))
     }
-    rests = _rests_of(stretches, changes, period) if stretches else set()
-    return [(s.start, s.stop) for k, s in enumerate(stretches) if k not in rests]
+    if not stretches:
+        return [], 0
+    rests, best = _rests_of(stretches, changes, period)
+    drives = [s for k, s in enumerate(stretches) if k not in rests and not s.moves]
+    without = [replace(s, moves=s.moves or k in rests) for k, s in enumerate(stretches)]
+    others, score = _rests_of(without, changes, period)
+    doubt = len(others) > 1 and score - DRIVES_AT_FIRST > max(best - ONE_MORE, 0.0)
+    return [(s.start, s.stop) for s in drives], len(others) if doubt else 0
 
 
 def _rests_of(
     stretches: list[_Stretch], changes: dict[tuple[int, int], Change], period: float
-) -> set[int]:
+) -> tuple[set[int], float]:
     """Which stretches are rests in the likeliest of all choices, by dynamic programming over the
-    rests.
+    rests, and the log of how likely it is.
     """
     speeds = [float(np.linalg.norm(c.velocity)) for c in changes.values()]
     top = max(speeds, default=LEAST_SPEED)
@@ -145,7 +191,7 @@ def _rests_of(
     ends, behind = [], [(-np.inf, -1)] * (len(stretches) + 1)
     for at in range(len(stretches)):
         behind[at] = max(behind[at], behind[at - 1]) if at else behind[at]
-        best[at] = max(best[at], behind[at])
+        best[at] = (-np.inf, -1) if stretches[at].moves else max(best[at], behind[at])
         since = _since(at, stretches, changes, period)
         last = max(since)
         ends.append(best[at][0] + since[last].score)
@@ -153,12 +199,12 @@ def _rests_of(
         for k in range(at + 1, last + 1):
             score = max(UNLIKELY, since[k].rests(top)) if k in since else UNLIKELY
             best[k] = max(best[k], (best[at][0] + score + REST, at))
-    at = int(np.argmax(ends))
-    found = set()
+    at = int(np.argmax(ends)) if np.isfinite(ends).any() else -1
+    found, score = set(), max(ends)
     while at >= 0:
         found.add(at)
         at = best[at][1]
-    return found
+    return found, score
 
 
 def _since(
@@ -173,7 +219,8 @@ def _since(
         ways, pushed = [], 0.0
         for i in range(k - 1, max(at, k - MOST_PUSHED) - 1, -1):
             if i in found and (i, k) in changes:
-                drift = FORCE_STAYS / 3 * stretches[i].rows * period if i > at else 0.0
+                seconds = stretches[i].rows * period if i > at else 0.0
+                drift = min(FORCE_STAYS / 3 * seconds, found[i].most_drift)
                 ways.append(found[i].then(changes[i, k], drift, pushed))
             pushed += UNLIKELY if stretches[i].rows * period > LONG else PUSHED
         if ways:
@@ -190,14 +237,18 @@ def _change(
     period: float,
 ) -> Change | None:
     """The change of the velocity between two stretches; None where nothing is known of it: samples
-    are missing, or the body swings, beside which its sensors' gains and limits are no small errors.
+    are missing, or the body swings.
     """
     rows = slice(ends[0].stop, ends[1].start)
     seconds = float(time[rows.stop] - time[rows.start - 1])
     whole = (rows.stop - rows.start + 1) * period
-    known = np.isfinite(gyro[rows]).all() and np.isfinite(accel[rows]).all()
-    if not known or not seconds < min(LONGEST, (1 + MISSING) * whole + period / 2):
+    known = whole > period and np.isfinite(gyro[rows]).all() and np.isfinite(accel[rows]).all()
+    if not known or not seconds < min(BETWEEN, (1 + MISSING) * whole + period / 2):
         return None
-    if np.linalg.norm(gyro[rows] - ends[0].rate, axis=1).max() > SWUNG:
+    if np.linalg.norm(gyro[rows] - ends[0].rate, axis=1).max() > TURNS:
         return None
-    return change_of_velocity(gyro[rows], accel[rows], ends, noise, period)
+    near = round(BESIDE / period)
+    rates = gyro[max(ends[0].start, rows.start - near) : rows.start], gyro[rows.stop :]
+    beside = rates[0].mean(axis=0), rates[1][: min(ends[1].rows, near)].mean(axis=0)
+    moments = replace(ends[0], rate=beside[0]), replace(ends[1], rate=beside[1])
+    return change_of_velocity(gyro[rows], accel[rows], moments, noise, period)

@@ -25,6 +25,14 @@ RATE, FORCE = 0.6, 2.0
 """rad/s and m/s^2; root mean squares over a window, either of which alone ends a stance. Chosen by
 these two stances."""
 
+SWING, TOGETHER = 2.5, 0.1
+"""rad/s, of a leg's swing, and s: a swing that is slower for less is one. A vehicle turns more
+slowly, but for a skid."""
+
+STEP, FEWEST, MOST = (0.5, 2.5), 10, 0.6
+"""s from a step to the next; so many are a walk, if they are so large a share of the swings: a
+foot that is turned or set down otherwise takes some, too."""
+
 STD = 0.05
 """m/s; of the velocity, as a sensor some 0.1 m above what a foot rolls over moves. Assumed."""
 
@@ -51,6 +59,35 @@ def standing(recording: Recording, bias: np.ndarray, gravity: float) -> Recordin
         velocity_up=zero,
         velocity_std=np.full(len(recording), STD),
     )
+
+
+def steps(rates: np.ndarray, force: np.ndarray, gravity: float, period: float) -> int:
+    """How many steps a foot takes, 0 of what is none; ``rates`` and ``force`` as for ``stances``.
+
+    Swings follow each other as steps do, and between nearly all of them it stands: a hand that
+    swings has no stance where it turns back, and what is set down now and then does not walk.
+    """
+    size = np.linalg.norm(np.nan_to_num(rates), axis=1)
+    swings = runs(_closed(size > SWING, round(TOGETHER / period)))
+    stands = stances(rates, force, gravity, period)
+    starts, ends = (np.array([run[i] for run in swings], dtype=int) for i in (0, 1))
+    if len(swings) < FEWEST:
+        return 0
+    every = np.diff((starts + ends) / 2) * period
+    follows = (every > STEP[0]) & (every < STEP[1])
+    standing = np.append(0, np.cumsum(stands))
+    stood = (standing[starts[1:]] - standing[ends[:-1]]) * period >= WINDOW
+    count = int(np.count_nonzero(follows & stood))
+    return count if count >= max(FEWEST, MOST * len(every)) else 0
+
+
+def _closed(marks: np.ndarray, gap: int) -> np.ndarray:
+    """Marks (n,) without gaps of fewer rows between them."""
+    out = marks.copy()
+    for start, stop in runs(~marks):
+        if stop - start < gap:
+            out[start:stop] = True
+    return out
 
 
 def stances(rates: np.ndarray, force: np.ndarray, gravity: float, period: float) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import casadi as ca
@@ -15,7 +16,8 @@ from pyimu.ins.compensated import compensated
 from pyimu.ins.detector import Detected, Noise, detect
 from pyimu.ins.filter.layout import open_std
 from pyimu.ins.filter.prediction import LASTS
-from pyimu.ins.speeds import driven
+from pyimu.ins.speeds import drives_and_doubt
+from pyimu.ins.witnesses import REFERENCE, Witness, denied
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
@@ -101,9 +103,15 @@ def clean_of(recording: Recording, part: Part | None) -> Recording:
 
 
 def stops_of(
-    recording: Recording, noise: Noise, zupt: str, findings: list[Finding]
+    recording: Recording,
+    noise: Noise,
+    zupt: str,
+    findings: list[Finding],
+    witnesses: Sequence[Witness] = (),
 ) -> tuple[np.ndarray, Detected | None]:
     """Marks (n,) of rest of a recording less known errors, none where the filter finds them.
+
+    What ``witnesses`` say to move is no rest that was found.
 
     Raises UserError where rests are to be declared and are not.
     """
@@ -117,10 +125,9 @@ def stops_of(
             "them in the samples"
         )
     found = detect(recording.time, recording.gyro, recording.accel, noise, recording.sample_period)
-    still = found.still.copy()
-    drives = driven(
-        recording.time, recording.gyro, recording.accel, still, noise, recording.sample_period
-    )
+    drives, moves, said = _driven(recording, found.still, noise, witnesses)
+    findings += said
+    still = found.still & ~moves
     for kind, stretches in (("steady_turn", found.steady), ("steady_drive", drives)):
         for start, stop in stretches:
             still[start:stop] = False
@@ -128,6 +135,31 @@ def stops_of(
             detail = {"first": float(recording.time[start]), "seconds": seconds}
             findings.append(Finding(kind, "gyro", stop - start, detail))
     return still, found
+
+
+def _driven(
+    recording: Recording, still: np.ndarray, noise: Noise, witnesses: Sequence[Witness]
+) -> tuple[list[tuple[int, int]], np.ndarray, list[Finding]]:
+    """The stretches of ``still`` (n,) that the samples tell to be driven, marks (n,) of those that
+    only ``witnesses`` tell, and what these say.
+
+    Measurements are heeded at once. A reference, by which a path is judged, is asked of what is
+    left alone, and the samples once more where it objects.
+    """
+    samples = recording.time, recording.gyro, recording.accel
+    moves, said, drives, doubt = np.zeros(len(still), dtype=bool), [], [], 0
+    for judges in (False, True):
+        left = still & ~moves
+        for start, stop in drives:
+            left[start:stop] = False
+        asked = [w for w in witnesses if (w.name == REFERENCE) == judges]
+        more, own = denied(recording.time, left, asked)
+        if not judges or more.any():
+            moves, said = moves | more, said + own
+            known = noise, recording.sample_period, moves
+            drives, doubt = drives_and_doubt(*samples, still, *known)
+    said += [Finding("rests_or_drives", "", doubt, {})] if doubt else []
+    return drives, moves, said
 
 
 def noise_at_rest(recording: Recording, part: Part, rest: Rest, declared: Part | None) -> Noise:

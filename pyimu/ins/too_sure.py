@@ -24,13 +24,14 @@ def too_sure(found: Filtered, stops: list[tuple[int, int]]) -> float:
 
     Their normalised innovations squared are those of three normal numbers each (Bar-Shalom, Li and
     Kirubarajan 2001, section 5.4.2). Stops that go on contradicting the estimate may be none, and
-    do not count where the others agree with it. Where these are too far off, too, the cause is the
-    same, and all count, as the estimate is held to what they say.
+    do not count where the others agree with it and are more. Where these are too far off, too, the
+    cause is the same, and all count, as the estimate is held to what they say.
     """
     nis, wrong = found.scalar("zupt_nis"), found.scalar("status").astype(int) & WRONG_REST > 0
     known = [(nis[k], wrong[k:end].mean() < LASTS) for k, end in stops if nis[k] > 0]
     first = np.array([n for n, _ in known])
-    sound = np.array([n for n, agrees in known if agrees]) if any(a for _, a in known) else first
+    sound = np.array([n for n, agrees in known if agrees])
+    sound = sound if 2 * len(sound) > len(first) else first
     if not len(sound) or chdtrc(3 * len(sound), sound.sum()) > BY_CHANCE:
         return 1.0
     return float(np.sqrt(first.mean() / 3))

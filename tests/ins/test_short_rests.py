@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from walks import Walk, walk
+from walks import G, Walk, walk
 
 from pyimu import Recording, ins
 from pyimu.errors import UserError
@@ -17,7 +17,7 @@ from pyimu.ins.checks import without_outliers
 from pyimu.ins.detector import Noise, detect
 from pyimu.ins.measured import CONTRADICTED, Fixes, check_fixes
 from pyimu.ins.short_rests import LEAST, between_swings
-from pyimu.ins.stances import stances
+from pyimu.ins.stances import stances, steps
 from pyimu.recording.clock import runs
 
 H = 0.005
@@ -98,7 +98,7 @@ def test_the_path_of_a_foot_that_rolls_holds_where_it_is_said_to_be_one():
     log = Recording.from_arrays(time=own.time, gyro=gyro, accel=accel)
     plain, found = (
         ins.run(log, method="filter", zupt=zupt, heading0=walk_heading(own))
-        for zupt in ("auto", "foot")
+        for zupt in ("live", "foot")
     )
     assert "on a foot, --zupt foot takes" in plain.report().splitlines()[1]
     assert "--zupt foot" not in found.report()
@@ -151,3 +151,28 @@ def test_they_need_swings_and_company():
     assert not swinging(LEAST - 1, 3.0, 20).any()
     assert not swinging(2 * LEAST, 1.0, 20).any()
     assert not swinging(2 * LEAST, 3.0, 60).any()
+
+
+@pytest.mark.parametrize("roll", (0.0, 0.3))
+def test_a_foot_is_told_by_its_steps_and_a_hand_is_none(roll):
+    """44 swings between stances; what swings on without them, as an arm does, takes no step."""
+    own = walk(7330, roll=roll)
+    assert 40 < steps(own.rate, own.force, G, 1 / 200) < 50
+    t = own.time
+    arm = np.stack([0 * t, 4 * np.sin(2 * np.pi * t), 0 * t], axis=1)
+    force = np.stack([3 * np.cos(2 * np.pi * t), 0 * t, G + 3 * np.sin(4 * np.pi * t)], axis=1)
+    assert steps(arm, force, G, 1 / 200) == 0
+
+
+def test_a_foot_that_nobody_named_is_navigated_as_one():
+    """By its stances, as beside --zupt foot, and said; a vehicle of the same samples is not."""
+    own, rng = walk(7331, seconds=30.0, roll=0.3), np.random.default_rng(1)
+    log = Recording.from_arrays(
+        time=own.time,
+        gyro=own.rate + 1.4e-3 * rng.standard_normal(own.rate.shape),
+        accel=own.force + 0.03 * rng.standard_normal(own.force.shape),
+    )
+    found, named = (ins.run(log, zupt=zupt, method="filter") for zupt in ("auto", "foot"))
+    np.testing.assert_array_equal(found.filter.y, named.filter.y)
+    assert "This looks like a sensor on a foot, by" in found.report()
+    assert "looks like a sensor on a foot" not in named.report()

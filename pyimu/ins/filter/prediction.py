@@ -37,7 +37,6 @@ from dataclasses import dataclass, replace
 import casadi as ca
 
 from pyimu.attitude.filter.settings import Settings
-from pyimu.ins.detector import FORCE_STAYS
 from pyimu.ins.filter import rest_judged, rest_window
 from pyimu.ins.filter.layout import (
     BASE,
@@ -71,7 +70,7 @@ from pyimu.ins.filter.weight import (
     in_world,
     upright_of,
 )
-from pyimu.ins.speeds import LEAST_SPEED
+from pyimu.ins.pushes import FORCE_STAYS, LEAST_SPEED
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import symmetric

@@ -16,20 +16,24 @@ from typing import NamedTuple
 import casadi as ca
 
 from pyimu.attitude.filter.settings import Settings
-from pyimu.ins.detector import (
+from pyimu.ins.detector import FORCE_TURNED
+from pyimu.ins.filter.rest_window import Window
+from pyimu.ins.pushes import (
     FOLLOWED,
     FORCE_STAYS,
-    FORCE_TURNED,
+    LEAST_SPEED,
     MOMENT,
     SETTLED,
     STEADY_GATE,
 )
-from pyimu.ins.filter.rest_window import Window
-from pyimu.ins.speeds import APART, LEAST_SPEED, LONGEST, RETURNED
+from pyimu.ins.speeds import APART, RETURNED
 from pyimu.symbolic.linear import reciprocal
 
 RECENT = 5.0
 """s; of motion since a rest, after which no speed is known well enough to keep a rest out."""
+
+LONGEST = 60.0
+"""s; of a drive that looks still, after which a rest is taken for one."""
 
 SIZES = (1, 1, 1, 1, 1, 3, 3, 4)
 

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 import casadi as ca
 
 from pyimu.attitude.filter.settings import Settings
-from pyimu.ins.detector import FALSE_ALARM, STEADY_GATE
+from pyimu.ins.detector import FALSE_ALARM
+from pyimu.ins.pushes import STEADY_GATE
 from pyimu.numerics.laws import chi2, norm
 from pyimu.symbolic.linear import cholesky, forward, reciprocal
 

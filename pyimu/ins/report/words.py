@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from pyimu.ins.filter.variables import STATUS_NAMES
 from pyimu.ins.measured import CONTRADICTED
 from pyimu.ins.outcome import Outcome
 from pyimu.ins.report.held import held
+from pyimu.ins.report.rests import FIXES, in_doubt, on_a_foot, steady, witnessed, wrong_rest
 from pyimu.ins.too_sure import WRONG_REST
 from pyimu.report.findings import in_line
 from pyimu.report.numbers import counted, number, quantity
@@ -35,9 +35,6 @@ UNTOLD = (
 UNSEEN = 1
 """Bit of the status of samples that are missing."""
 
-FIXES = ("position_fixes", "velocity_fixes")
-"""Kinds of the findings about measured positions and velocities."""
-
 OBSERVABLE = (
     "Yaw cannot be seen from zero velocities: between two headings it is the integral of the gyro, "
     "and its error turns the path about the start"
@@ -54,21 +51,6 @@ def about(a: Outcome) -> str:
         f"{len(a.time):,} samples, {quantity(a.duration, 's')} at "
         f"{a.recording.sample_rate:.4g} Hz, {part}{more}{constraint}"
     )
-
-
-STEADY = (
-    (
-        "steady_turn",
-        "turned steadily",
-        " to the accelerometer, but the gyro was off its bias, so it was taken for a turn",
-    ),
-    (
-        "steady_drive",
-        "was driven at a constant speed",
-        ", but a speed came before it and went after it",
-    ),
-)
-"""Kinds of finding that look like a rest: what the sensor did, and how that was told."""
 
 
 def _of_later_rest(settings: Mapping[str, float]) -> bool:
@@ -93,7 +75,7 @@ def _in_motion_at_first(settings: Mapping[str, float]) -> str:
 
 def notes(a: Outcome) -> list[str]:
     """What should be known first: where there is nothing to update with, and what was refused."""
-    out = [held(a)]
+    out = [held(a), *on_a_foot(a), *witnessed(a), *in_doubt(a)]
     kinds = {f.kind: f for f in a.findings}
     out += [text[0].upper() + text[1:] for text in about_contradicted(a.findings)]
     if "no_rest" in kinds:
@@ -114,18 +96,14 @@ def notes(a: Outcome) -> list[str]:
             f"The force at rest is {number(off['magnitude'], 4)} m/s^2, {off['share']:+.1%} of "
             "gravity off: a scale factor, a bias, or a unit"
         )
-    out += [
-        f"The sensor {what}, {said}: that looks like a rest{why}"
-        for kind, what, why in STEADY
-        for said in _longest([f.detail for f in a.findings if f.kind == kind])
-    ]
+    out += steady(a)
     out += [
         f"{counted(f.count, 'sample')} of {f.column} that no motion makes "
         f"{'was' if f.count == 1 else 'were'} left out, the first at {f.detail['first']:.6g} s"
         for f in a.findings
         if f.kind == "outliers"
     ]
-    out += list(_of_samples(kinds, a.declares_rests))
+    out += _of_samples(kinds)
     if "coning" in kinds:
         detail = kinds["coning"].detail
         out.append(
@@ -163,16 +141,6 @@ def _constraint(f: Finding, lost: bool) -> str:
     )
 
 
-def _longest(stretches: list[dict[str, Any]]) -> Iterator[str]:
-    """How many stretches there are, and the longest; nothing of none."""
-    if stretches:
-        longest = max(stretches, key=lambda d: d["seconds"])
-        yield (
-            f"{counted(len(stretches), 'time')}, the longest at {longest['first']:.6g} s for "
-            f"{quantity(longest['seconds'], 's')}"
-        )
-
-
 def _gaps(a: Outcome) -> Iterator[str]:
     found = [(a.time[b] - a.time[b - 1], a.time[b - 1]) for _, b in a.recording.segments[:-1]]
     if found:
@@ -184,10 +152,8 @@ def _gaps(a: Outcome) -> Iterator[str]:
         )
 
 
-def _of_samples(kinds: dict[str, Finding], declared: bool) -> Iterator[str]:
-    """What a finding of each kind says of gyro, accelerometer and reference; ``declared`` says that
-    a column declared the rests.
-    """
+def _of_samples(kinds: dict[str, Finding]) -> Iterator[str]:
+    """What a finding of each kind says of gyro, accelerometer and reference."""
     if (f := kinds.get("leaning")) is not None:
         yield (
             f"Gravity is on {f.detail['axis']} at rest: the body lies on its side, or its axes are "
@@ -197,18 +163,6 @@ def _of_samples(kinds: dict[str, Finding], declared: bool) -> Iterator[str]:
         yield (
             f"The reference jumps by {number(f.detail['largest'])} m at {f.detail['first']:.6g} s "
             f"({counted(f.count, 'time')}): the errors beside it are the reference's own"
-        )
-    if (f := kinds.get("rest_moves")) is not None:
-        yield (
-            f"The reference moves during {counted(f.count, 'rest')}, by up to "
-            f"{number(f.detail['largest'])} m (the first at {f.detail['first']:.6g} s, "
-            f"{quantity(f.detail['seconds'], 's')} in all): these are none"
-            + (
-                ", whatever the column stationary says"
-                if declared
-                else ", as a drive at constant speed looks like a rest; a column stationary or "
-                "--zupt off leaves them out"
-            )
         )
     if (f := kinds.get("reference_scale")) is not None:
         yield (
@@ -267,19 +221,7 @@ def _status(a: Outcome) -> Iterator[str]:
         if len(rows):
             where = f"{counted(len(rows), 'sample')}, the first at {a.time[rows[0]]:.6g} s"
             text = f"{text[0].upper()}{text[1:]} ({where})"
-            yield text if bit != WRONG_REST else text + _wrong_rest(a)
-
-
-def _wrong_rest(a: Outcome) -> str:
-    """What may be wrong where zero velocities contradict the estimate."""
-    if any(f.kind in FIXES and f.count for f in a.findings):
-        return ""  # those that are wrong may have made it
-    if a.declares_rests:
-        return ". The column stationary may declare a rest that is none"
-    return (
-        ". A drive at constant speed looks like a rest; a column stationary would tell the two "
-        "apart"
-    )
+            yield text if bit != WRONG_REST else text + wrong_rest(a)
 
 
 def _too_sure(a: Outcome) -> Iterator[str]:
