@@ -34,8 +34,9 @@ def most_white(fit: Fit) -> np.ndarray:
     for trial, one in zip(fit.trials, fit.residuals(), strict=True):
         if trial.reduction is None:
             period = trial.h * trial.band.stride
-            found = least_density(one.residual, band_segments(trial), period)
-            most = np.minimum(most, found)
+            axes = list(trial.axes)
+            found = least_density(one.residual[:, axes], band_segments(trial), period)
+            most[axes] = np.minimum(most[axes], found)
     return most
 
 

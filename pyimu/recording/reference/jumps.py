@@ -64,6 +64,9 @@ def jumps(
     angle = cumulative_trapezoid(np.nan_to_num(gyro), time, axis=0, initial=0.0)
     own = np.diff(_at(known, time, angle), axis=0)
     late = _late(steps, own, usable) * float(np.median(np.diff(known)))
+    usable = _usable(time, known + late, gyro)
+    if np.count_nonzero(usable) < 4 * SIDE:
+        return none
     beyond = _beyond(steps, np.diff(_at(known + late, time, angle), axis=0), usable)
     vectors = _distances(np.cumsum(beyond, axis=0), usable)
     size = np.linalg.norm(vectors, axis=1)
