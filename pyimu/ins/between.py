@@ -81,32 +81,66 @@ def change_of_velocity(
     turns = _products(Rotation.from_rotvec(rates * period).as_matrix())
     force = np.einsum("nij,nj->ni", turns, accel)
     velocity = np.cumsum(force - first.force, axis=0) * period
-    of_gains = np.cumsum(_times(turns, rates), axis=0) * period
-    even = share[:, None, None] * np.eye(3)
-    spin = turns - np.eye(3)
-    shown = turns[-1] @ second.force
-    by = np.concatenate(
+    shown, of_gains = turns[-1] @ second.force, _times(turns, rates)
+    told = np.hstack(
         [
-            -np.cumsum(spin, axis=0) * period,
-            *(-np.cumsum(_skew(force) @ p, axis=0) * period for p in (of_gains, even)),
-            -np.cumsum(even, axis=0) * period,
-        ],
-        axis=2,
+            turns[-1] - np.eye(3),
+            _skew(shown) @ of_gains.sum(axis=0) * period,
+            _skew(shown),
+            np.eye(3),
+        ]
     )
-    told = np.hstack([spin[-1], _skew(shown) @ of_gains[-1], _skew(shown), np.eye(3)])
+    last = _at_last(turns, of_gains, force, share, period)
     of_rates = sum(noise.of_mean(min(m.rows, round(BESIDE / period)), period) for m in ends)
     prior = _prior(noise, of_rates, period, n)
     own = told * prior @ told.T + of_ends * np.eye(3)
     gain = np.linalg.solve(own, told * prior).T
     known = np.diag(prior) - gain @ own @ gain.T
     off = shown - first.force
-    velocity = velocity + by @ gain @ off
-    spread = float(np.linalg.eigvalsh(by[-1] @ known @ by[-1].T).max())
+    velocity = velocity - _by_errors(gain @ off, turns, rates, force, share, period)
+    spread = float(np.linalg.eigvalsh(last @ known @ last.T).max())
     spread += _left(noise, of_ends, velocity, rates, period)
     apart = float(off @ np.linalg.solve(own + FORCE_KEPT**2 * np.eye(3), off))
     most = float(np.linalg.norm(velocity, axis=1).max())
     angle = float(Rotation.from_matrix(turns[-1]).magnitude())
     return Change(velocity[-1], spread, turns[-1], angle, apart, most)
+
+
+def _at_last(
+    turns: np.ndarray, of_gains: np.ndarray, force: np.ndarray, share: np.ndarray, period: float
+) -> np.ndarray:
+    """A (3, 18): what the errors make of the velocity in the end.
+
+    Of gains, the sum over k of T f x (the sum over j <= k of T w) is that over j of the forces from
+    j on, times T w.
+    """
+    n = len(turns)
+    after = _skew(np.cumsum(force[::-1], axis=0)[::-1]).reshape(n, 9)
+    crossed = (after.T @ of_gains.reshape(n, 27)).reshape(3, 3, 3, 9)
+    return -np.hstack(
+        [
+            (turns.sum(axis=0) - n * np.eye(3)) * period,
+            np.einsum("ijje->ie", crossed) * period**2,
+            _skew((share[:, None] * force).sum(axis=0)) * period,
+            np.eye(3) * share.sum() * period,
+        ]
+    )
+
+
+def _by_errors(
+    x: np.ndarray,
+    turns: np.ndarray,
+    rates: np.ndarray,
+    force: np.ndarray,
+    share: np.ndarray,
+    period: float,
+) -> np.ndarray:
+    """What errors x (18,) take off the velocity (n, 3) at each sample."""
+    bias, gains, turned, stays = x[:3], x[3:12].reshape(3, 3), x[12:15], x[15:]
+    by_gains = np.cumsum(np.einsum("nij,nj->ni", turns, rates @ gains.T), axis=0) * period
+    tipped = by_gains + share[:, None] * turned
+    off = turns @ bias - bias + np.cross(force, tipped) + share[:, None] * stays
+    return np.cumsum(off, axis=0) * period
 
 
 def _shaken(gyro: np.ndarray, accel: np.ndarray, noise: Noise) -> Noise:

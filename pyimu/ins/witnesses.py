@@ -28,6 +28,9 @@ EVEN = 0.2
 """Of a way: how far off the straight line from its start to its end, RMS, it may be. What jumps is
 off by 0.29 of the step at least; noise of a tenth of the way, by 0.14 to 0.17."""
 
+STRAIGHT = 0.7
+"""Share of the ways that were seen in one rest by which it must have gone on in the end."""
+
 FASTER = 0.1
 """m/s; least speed that counts as one: that of a receiver at rest is above 0, too. Assumed."""
 
@@ -70,7 +73,8 @@ class Witness:
         found = np.zeros(len(time), dtype=bool)
         for start, stop in runs(still):
             own = slice(*np.searchsorted(self.at, [time[start], time[stop - 1] + 1e-9]))
-            seen = self._by_speed(own) if self.fast else self._by_way(own)
+            seen = list(self._by_speed(own) if self.fast else self._by_way(own))
+            seen = seen if self._is_straight(seen) else []
             longest = 0.0
             for first, last, beside in seen:
                 a, b = np.searchsorted(time, [first - beside, last + beside + 1e-9])
@@ -80,6 +84,20 @@ class Witness:
                 if time[start + b - 1] - time[start + a] < longest:
                     found[start + a : start + b] = True
         return found
+
+    def _is_straight(self, seen: list[tuple[float, float, float]]) -> bool:
+        """Whether what was seen in one rest goes one way: what looks still does not turn, and what
+        wanders, as a receiver's errors do over seconds, goes to and fro.
+        """
+        steps = []
+        for first, last, _ in seen:
+            values = self.values[slice(*np.searchsorted(self.at, [first, last + 1e-9]))]
+            steps.append(values.mean(axis=0) if self.fast else values[-1] - values[0])
+        ways = np.array(steps)
+        if not len(ways):
+            return False
+        gone = float(np.linalg.norm(ways, axis=1).sum())
+        return float(np.linalg.norm(ways.sum(axis=0))) > STRAIGHT * gone
 
     def way(self, first: float, last: float) -> float:
         """m; from the place at one time to that at another."""
@@ -213,10 +231,15 @@ def _refuted(
     """
     marks = np.zeros(len(time), dtype=bool)
     for start, stop in runs(found):
-        ends = time[start], time[stop - 1]
-        said = witness.way(*ends)
-        shown = [p.way(*ends) for p in places if said > SEEN_BY * max(MOVED, MOVED_BY * p.std)]
-        marks[start:stop] = bool(shown) and max(shown) < said / SEEN_BY
+        seen = []
+        for place in places:
+            # Where a place is known, and only there, it tells.
+            a, b = np.searchsorted(place.at, [time[start], time[stop - 1] + 1e-9])
+            ends = (place.at[a], place.at[b - 1]) if b - a > 1 else (0.0, 0.0)
+            said = witness.way(*ends)
+            if b - a > 1 and said > SEEN_BY * max(MOVED, MOVED_BY * place.std):
+                seen.append(place.way(*ends) < said / SEEN_BY)
+        marks[start:stop] = bool(seen) and all(seen)
     return marks
 
 
@@ -235,6 +258,8 @@ def rests_that_move(
     """
     for witness in witnesses:
         marks = witness.moves(time, still)
+        if witness.fast:
+            marks &= ~_refuted(witness, time, marks, [w for w in witnesses if not w.fast])
         rests = [(a, b) for a, b in runs(still) if marks[a:b].any()]
         if rests:
             detail = {

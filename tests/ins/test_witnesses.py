@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
-from pyimu import Recording
+from pyimu import Recording, UserError
 from pyimu.ins import run
 from pyimu.ins.track import Reference
 from pyimu.ins.witnesses import Witness, denied, rests_that_move, witnesses_of
@@ -137,7 +138,8 @@ def test_a_log_that_begins_at_a_constant_speed_is_told_by_what_it_measures(by):
     assert not found.still[up > 0.1].any()
     assert found.still[-2000:].mean() > 0.9
     text = found.report()
-    assert f"{'By the measured velocity the body' if by == 'velocity' else 'The'}" in text
+    said = {"position": "The measured position moves", "reference": "The reference moves"}
+    assert said.get(by, "By the measured velocity the body") in text
     assert "like rest to gyro and accelerometer (the first at 0 s" in text
     assert ("Without a reference in the log" in text) == (by == "reference")
 
@@ -145,9 +147,31 @@ def test_a_log_that_begins_at_a_constant_speed_is_told_by_what_it_measures(by):
 def test_a_declared_rest_that_a_position_moves_in_is_said():
     log, up = of_lift("position")
     told = replace(log, stationary=np.ones(len(up)))
-    found = run(told, method="filter", fixes=False)
-    assert "The measured position moves" not in found.report()
+    with pytest.raises(UserError, match="the positions move during what was taken for rests"):
+        run(told, method="filter")
     ref = replace(of_lift("reference")[0], stationary=np.ones(len(up)))
     text = run(ref, method="filter").report()
     assert "The reference moves during 1 rest, by up to 4" in text
     assert "these are none, whatever the column stationary says" in text
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_errors_that_last_for_a_second_deny_no_rest(seed):
+    """A receiver's velocity that is 0.1 m/s off for a second here and there left 5 % of a rest."""
+    rng, time = np.random.default_rng([41, seed]), np.arange(0.0, 120.0, 0.1)
+    off = lfilter([np.sqrt(1 - 0.9**2)], [1.0, -0.9], rng.standard_normal((len(time), 3)), axis=0)
+    told = Witness("velocity", time, 0.1 * off, 0.1, fast=True)
+    assert not told.moves(time, np.ones(len(time), dtype=bool)).any()
+
+
+def test_positions_refute_a_speed_where_there_are_some():
+    """In a tunnel there are none, and the wheels are right."""
+    time = np.arange(0.0, 60.0, 0.1)
+    speed = Witness("speed", time, np.ones((len(time), 1)), 0.01, fast=True)
+    here, whole = time[time < 3.5], np.zeros((len(time), 3))
+    gone = np.column_stack([here, 0 * here, 0 * here])
+    still = np.ones(len(time), dtype=bool)
+    beside = {"gone": Witness("position", here, gone, 0.05)}
+    beside["hung"] = Witness("position", time, whole, 0.05)
+    denied_by = {k: denied(time, still, [speed, w])[0].mean() for k, w in beside.items()}
+    assert denied_by["gone"] > 0.95 and denied_by["hung"] == 0.0

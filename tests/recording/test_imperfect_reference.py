@@ -80,6 +80,21 @@ def test_a_jump_shows_beside_a_gyro_that_is_early_or_late(late):
     assert spikes.detail["largest_angle"] == pytest.approx(np.deg2rad(1.2), abs=np.deg2rad(0.3))
 
 
+@pytest.mark.parametrize("late", [0.0, 0.3])
+@pytest.mark.parametrize("row", [700, 3000, 5200])
+def test_a_jump_shows_in_a_motion_that_repeats_itself(late, row):
+    """A period later it is not in the rows that both have, and that lag was the likelier."""
+    swing = 0.4 * np.sin(2 * np.pi * 0.6 * TIME)
+    measured = np.zeros((N, 3))
+    measured[:, 2] = 0.4 * 2 * np.pi * 0.6 * np.cos(2 * np.pi * 0.6 * (TIME - late))
+    measured += 1.7e-3 * np.random.default_rng(3).standard_normal((N, 3))
+    q = quaternions(noisy(Rotation.from_rotvec(np.outer(swing, [0, 0, 1])), 0.05))
+    jump = Rotation.from_rotvec([0.0, 0.2, 0.0])
+    q[row:] = quaternions(jump * Rotation.from_quat(q[row:], scalar_first=True))
+    reference = reference_rate(Recording.from_arrays(time=TIME, gyro=measured, ref_q=q))
+    assert kinds(reference) == ["reference_spikes"] and reference.findings[0].count == 1
+
+
 @pytest.mark.parametrize("late", [0.0, 0.02, 1.4])
 @pytest.mark.parametrize("seed", range(4))
 def test_motion_is_no_jump(seed, late):

@@ -689,7 +689,6 @@ def test_repoimu_06_loses_its_last_three_percent():
         "repoimu_tstick_test07_trial1",
         "broad_02_undisturbed_slow_rotation_B",
         "broad_07_undisturbed_fast_rotation_B",
-        "broad_26_disturbed_phone_vibration_A",
     ],
 )
 def test_fast_motion_of_a_good_reference_is_kept(name):
@@ -697,6 +696,19 @@ def test_fast_motion_of_a_good_reference_is_kept(name):
     reference = reference_rate(recording)
     seen = np.isfinite(recording.ref_q[:, 0])
     assert reference.findings == () and np.isfinite(reference.rate[seen, 0]).mean() > 0.999
+
+
+def test_markers_that_are_lost_for_a_moment_in_broad_26_are_left_out():
+    """Four times its attitude is 0.7 to 1.4 deg off for some samples, which the gyro does not show.
+    The camera's clock is 4 ms off, which hid them.
+    """
+    recording = real("broad_26_disturbed_phone_vibration_A")
+    reference = reference_rate(recording)
+    assert [f.kind for f in reference.findings] == ["reference_spikes"]
+    lost, time = np.isnan(reference.rate[:, 0]), recording.time
+    for twitch in (63.12, 85.46, 88.80, 121.67):
+        assert lost[np.searchsorted(time, twitch)]
+    assert np.mean(lost[np.isfinite(recording.ref_q[:, 0])]) < 0.013
 
 
 def test_repoimu_05_reference_reaches_926_degrees_per_second():

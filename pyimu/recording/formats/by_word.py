@@ -10,6 +10,7 @@ from pyimu.recording.formats.cells import is_number
 from pyimu.recording.formats.clock_times import is_clock_time
 from pyimu.recording.formats.marked import Marked
 from pyimu.recording.naming.name import Name, named
+from pyimu.recording.naming.triads import triads
 
 FIRST_COLUMNS = 3
 """The word stands in one of so many, with the time."""
@@ -31,14 +32,16 @@ def rows_by_word(lines: Sequence[str], topic: str = "") -> Marked | None:
     """How the rows of one sensor are read: of ``topic``, else of the gyro where there is one."""
     for separator in (",", ";", "\t"):
         cells = [[c.strip() for c in line.rstrip("\r\n").split(separator)] for line in lines]
+        whole = triads(cells[0]) if cells else []
+        if {"gyro", "accel"} <= {t.group for t in whole if t.score > 0}:
+            continue  # each row has a sample of both, and the word is of something else
         for at in range(FIRST_COLUMNS):
             words = _words(cells, at)
             if not words or topic and topic not in words:
                 continue
             own = topic or words[0]
-            width = Counter(len(c) for c in cells if len(c) > at and c[at] == own).most_common()[0][
-                0
-            ]
+            widths = Counter(len(c) for c in cells if len(c) > at and c[at] == own)
+            width = widths.most_common()[0][0]
 
             def rewrite(line: str, at: int = at, own: str = own, by: str = separator) -> str | None:
                 row = line.split(by)

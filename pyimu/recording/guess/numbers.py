@@ -180,7 +180,8 @@ def force_unit(force: np.ndarray) -> UnitGuess:
 
 def _counts_a_g(size: float) -> UnitGuess:
     """The size of a count of which gravity is ``size``: that of the nearest sensitivity, where the
-    next is clearly less near; else both.
+    next is clearly less near; else both. A maker's own beside a power of two is not told from that
+    by where gravity lies: a bias of some 20 mg is as usual.
     """
     seen = f"gravity is {size:.5g} counts"
     sizes = {2.0 ** round(np.log2(size)): "", **COUNTS_A_G}
@@ -189,9 +190,11 @@ def _counts_a_g(size: float) -> UnitGuess:
         return UnitGuess(None, f"{seen}: see the data sheet for LSB/g")
     off, other = (abs(float(np.log(size / k))) for k in (near, others[0]))
     why = f"{seen}, {near:.0f} a g{sizes[near]}"
+    rare = near in COUNTS_A_G and others[0] not in COUNTS_A_G and other < NEAR_GRAVITY
+    doubted = rare or other < CLEARLY * off
     if other < NEAR_GRAVITY:
-        why += f"{' or' if other < CLEARLY * off else ', not'} {others[0]:.0f}{sizes[others[0]]}"
-    if other < CLEARLY * off:
+        why += f"{' or' if doubted else ', not'} {others[0]:.0f}{sizes[others[0]]}"
+    if doubted:
         return UnitGuess(None, why, sizes=(1 / near, 1 / others[0]))
     return UnitGuess("g", why, 1 / near)
 

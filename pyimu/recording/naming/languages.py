@@ -42,10 +42,15 @@ _LONGEST = sorted(_MEANT, key=lambda word: -len(word))
 
 _LETTER = r"[^\W\d_]"
 
+_BEFORE = {"temps": r"\A"}
+"""What must stand before a word: ``imu temps`` are temperatures."""
+
 _FOUND = re.compile(
     "|".join(
         # Words of letters stand alone or before an axis, those of signs run into what is there.
-        rf"(?<!{_LETTER}){word}(?=[xyz]?(?!{_LETTER}))" if word < "\u0500" else word
+        rf"{_BEFORE.get(word, '')}(?<!{_LETTER}){word}(?=[xyz]?(?!{_LETTER}))"
+        if word < "\u0500"
+        else word
         for word in _LONGEST
     ),
     re.I,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from pyimu.recording.naming.endings import fits
@@ -10,6 +10,7 @@ from pyimu.recording.naming.name import WORD, Name, named
 from pyimu.recording.naming.words import (
     DERIVED,
     ELSE,
+    HALVES,
     LINEAR,
     NO_SAMPLES,
     ONE_VECTOR,
@@ -67,9 +68,9 @@ def triads(header: Sequence[str], file: str = "") -> list[Triad]:
         for group in STRONG:
             score = 2 * _sureness(three, group, sure, stem in ((), hint))
             if score:
-                score += bool(set(stem) & RAW) - 3 * bool(set(stem) & (DERIVED | TRUTHS))
+                score += bool(set(stem) & RAW) - 3 * _is_none(stem, DERIVED | TRUTHS)
                 found.append(Triad(group, three, at, score))
-        if stem not in ((), hint) and not any(sure.values()) and not set(stem) & NO_SAMPLES:
+        if stem not in ((), hint) and not any(sure.values()) and not _is_none(stem, NO_SAMPLES):
             by_unit += [Triad(g, three, at, 4) for g in TOLD_BY_UNIT if _fit(three, g)]
     there = {triad.group for triad in found if triad.score > 0}
     found += [triad for triad in by_unit if triad.group not in there]
@@ -140,11 +141,16 @@ def _with_turns(names: Sequence[Name]) -> list[Name]:
     return found
 
 
+def _is_none(words: Sequence[str], known: Collection[str]) -> bool:
+    """Whether words say that a vector is no raw sample: one of those ``known``, or the last."""
+    return bool(set(words) & set(known) or set(words[-1:]) & HALVES)
+
+
 def others(header: Sequence[str], taken: Iterable[int]) -> list[tuple[int, int, int]]:
     """Positions of the vectors in a header that no word tells of, those of ``taken`` left out."""
     away, known = set(taken), DERIVED | TRUTHS | ELSE
     names = enumerate(_with_turns(_with_rolls([named(cell) for cell in header])))
-    return vectors({k: n for k, n in names if k not in away and not set(n.words) & known})
+    return vectors({k: n for k, n in names if k not in away and not _is_none(n.words, known)})
 
 
 def vectors(names: Mapping[int, Name]) -> list[tuple[int, int, int]]:

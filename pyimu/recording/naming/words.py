@@ -64,8 +64,6 @@ DERIVED = (
     {"est", "estimated", "estimate", "filtered", "filt", "user", "free", "gravity", "global"}
     | {"world", "bias", "cov", "covariance", "var", "std", "offset", "err", "error", "delta"}
     | {
-        "low",
-        "lower",
         "dv",
         "dq",
         "increment",
@@ -78,7 +76,11 @@ DERIVED = (
         "lin",
     }
 )
-"""Words for what is no raw sample; ``low`` is the lower half of a number of 32 bits."""
+"""Words for what is no raw sample."""
+
+HALVES = {"low", "lower"}
+"""Words for the lower half of a number of 32 bits, where they end its name: ``X_GYRO_LOW``, and not
+``low_noise_accel``."""
 
 NO_SAMPLES = DERIVED | TRUTHS
 """Words for what no sensor measures."""

@@ -185,6 +185,9 @@ def _goes_too_fast(recording: Recording) -> bool:
     if recording.accel is None or _leans(recording.accel):
         return False
     rate = _within_range(recording).gyro
+    slope = turning_of_gravity(rate, recording.accel, recording.sample_period)
+    if slope is not None and 1 / LIKE < slope < LIKE:
+        return False  # a ship that heels in its turns: gravity agrees with the header
     speed = speed_in_turns(rate, recording.accel, recording.sample_period)
     return speed is not None and FASTEST < speed < FASTER
 

@@ -41,6 +41,13 @@ is set right before anything is looked at."""
 PLAINLY = 0.5
 """Of what a lag of zero leaves of the correlation, what another may leave."""
 
+USUAL = 0.98
+"""Share of the steps that are no jumps, and no faults."""
+
+REPEATS, BESIDE = 2.0, 0.01
+"""Times what the best lag leaves of the correlation, and share of it, within which another is as
+good."""
+
 ISOLATION = 3.0
 """And what is near but does not share its samples: fast motion that a delayed reference shows late
 comes in waves, a jump alone."""
@@ -85,13 +92,19 @@ def _at(instants: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarra
 
 def _late(steps: np.ndarray, turned: np.ndarray, usable: np.ndarray) -> int:
     """Samples by which the gyro shows later what the reference does, by the sizes of their turns
-    (m, 3), which no mounting changes; 0 where that is not plain.
+    (m, 3), which no mounting changes; of a motion that repeats itself the nearest lag, 0 where none
+    is plain.
     """
     x, y = (np.linalg.norm(v, axis=1) for v in (steps, turned))
+    # A jump is one step, and would tell farther lags that leave it out from nearer ones.
+    x, y = (np.minimum(v, np.quantile(v[usable], USUAL)) for v in (x, y))
     most = min(FARTHEST, len(x) // 4)
     lags, known = np.arange(-most, most + 1), usable.astype(float)
     r = correlations(np.where(usable, x, 0.0), known, np.where(usable, y, 0.0), known, lags, most)
-    best = int(np.argmax(r))
+    alike = np.flatnonzero(1 - r <= REPEATS * (1 - r.max()) + BESIDE)
+    first = alike[np.argmin(np.abs(lags[alike]))]
+    near = np.flatnonzero(np.abs(lags - lags[first]) <= SIDE)
+    best = int(near[np.argmax(r[near])])
     return int(lags[best]) if r[best] > ALIKE and 1 - r[best] < PLAINLY * (1 - r[most]) else 0
 
 
