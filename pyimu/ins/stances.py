@@ -33,6 +33,10 @@ STEP, FEWEST, MOST = (0.5, 2.5), 10, 0.6
 """s from a step to the next; so many are a walk, if they are so large a share of the swings: a
 foot that is turned or set down otherwise takes some, too."""
 
+KICK = 5.0
+"""m/s^2; by which the size of the force is off gravity's somewhere in a swing of a leg: what is
+turned from side to side in the hand, as for a calibration, hardly pushes. Assumed."""
+
 STD = 0.05
 """m/s; of the velocity, as a sensor some 0.1 m above what a foot rolls over moves. Assumed."""
 
@@ -64,8 +68,8 @@ def standing(recording: Recording, bias: np.ndarray, gravity: float) -> Recordin
 def steps(rates: np.ndarray, force: np.ndarray, gravity: float, period: float) -> int:
     """How many steps a foot takes, 0 of what is none; ``rates`` and ``force`` as for ``stances``.
 
-    Swings follow each other as steps do, and between nearly all of them it stands: a hand that
-    swings has no stance where it turns back, and what is set down now and then does not walk.
+    Swings follow each other as steps do and push, and between nearly all of them it stands: a hand
+    that swings has no stance where it turns back, and what is set down now and then does not walk.
     """
     size = np.linalg.norm(np.nan_to_num(rates), axis=1)
     swings = runs(_closed(size > SWING, round(TOGETHER / period)))
@@ -78,7 +82,9 @@ def steps(rates: np.ndarray, force: np.ndarray, gravity: float, period: float) -
     standing = np.append(0, np.cumsum(stands))
     stood = (standing[starts[1:]] - standing[ends[:-1]]) * period >= WINDOW
     count = int(np.count_nonzero(follows & stood))
-    return count if count >= max(FEWEST, MOST * len(every)) else 0
+    off = np.abs(np.linalg.norm(np.nan_to_num(force), axis=1) - gravity)
+    kicks = np.mean([off[a:b].max() > KICK for a, b in swings])
+    return count if count >= max(FEWEST, MOST * len(every)) and kicks >= MOST else 0
 
 
 def _closed(marks: np.ndarray, gap: int) -> np.ndarray:

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from walks import G, Walk, walk
 
 from pyimu import Recording, ins
@@ -162,6 +163,23 @@ def test_a_foot_is_told_by_its_steps_and_a_hand_is_none(roll):
     arm = np.stack([0 * t, 4 * np.sin(2 * np.pi * t), 0 * t], axis=1)
     force = np.stack([3 * np.cos(2 * np.pi * t), 0 * t, G + 3 * np.sin(4 * np.pi * t)], axis=1)
     assert steps(arm, force, G, 1 / 200) == 0
+
+
+def test_what_is_turned_over_from_side_to_side_takes_no_steps():
+    """Quarter turns of 0.8 s about one axis after another, and a second's hold, as for a
+    calibration: its holds looked like stances, and the turns like swings.
+    """
+    h, up, force, rates = 1 / 200, np.array([0.0, 0.0, 1.0]), [], []
+    u = np.arange(0.0, 0.8, h)
+    for k in range(24):
+        axis = np.eye(3)[k % 3]
+        size = np.pi / 2 / 0.8 * (1 - np.cos(2 * np.pi * u / 0.8))
+        angle = np.append(0.0, np.cumsum(size) * h)
+        turned = Rotation.from_rotvec(-angle[:, None] * axis).apply(up)
+        up = turned[-1]
+        force += [G * turned[:-1], np.tile(G * up, (200, 1))]
+        rates += [size[:, None] * axis, np.zeros((200, 3))]
+    assert steps(np.concatenate(rates), np.concatenate(force), G, h) == 0
 
 
 def test_a_foot_that_nobody_named_is_navigated_as_one():
