@@ -187,9 +187,7 @@ def detect(
             still[start:stop] = False
         else:
             known = variance_of_bias + noise.walk**2 * away
-            last = min(stop - start, noise.longest_mean(period))
-            mean, own = np.nanmean(gyro[stop - last : stop], axis=0), noise.of_mean(last, period)
-            bias, variance_of_bias = _followed(bias, known, mean, own)
+            bias, variance_of_bias = _followed(bias, known, gyro[start:stop], noise, period)
             at = float(time[stop - 1])
             if before is None or (stop - start) * period > MOMENT:
                 before = _Rest(force, stop - start, stop)
@@ -208,12 +206,14 @@ def _joined(parts: list[tuple[int, int]]) -> list[tuple[int, int]]:
 
 
 def _followed(
-    bias: np.ndarray, known: np.ndarray, mean: np.ndarray, own: np.ndarray
+    bias: np.ndarray, known: np.ndarray, gyro: np.ndarray, noise: Noise, period: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The bias (3,) and its variance after a rest whose ``mean`` has the variance ``own``: that
-    itself, as a bias does more than walk, but of a short rest only what it tells beside what was
+    """The bias (3,) and its variance after a rest: the mean of its last rates of ``gyro`` (n, 3),
+    as a bias does more than walk, but of a short rest only what that tells beside what was
     ``known``, the variance of ``bias``.
     """
+    last = min(len(gyro), noise.longest_mean(period))
+    mean, own = np.nanmean(gyro[len(gyro) - last :], axis=0), noise.of_mean(last, period)
     share = np.where(own > known, known / (known + own), 1.0)
     return bias + share * (mean - bias), np.where(own > known, share * own, own)
 

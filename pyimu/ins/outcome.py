@@ -118,7 +118,7 @@ class Outcome:
     @property
     def contradicting_stops(self) -> list[tuple[float, float]]:
         """When, in s, a stop begins that contradicts the leg before it beyond the gate, and by how
-        many standard deviations the velocity is off there.
+        many standard deviations the velocity is off there, as a root mean square of its axes.
         """
         nis = self.filter.scalar("zupt_nis")
         wrong = [a for a, _ in self.later_stops if nis[a] > GATE]

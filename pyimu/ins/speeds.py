@@ -138,26 +138,13 @@ def driven(
     noise: Noise,
     period: float,
     moves: np.ndarray | None = None,
-) -> list[tuple[int, int]]:
-    """The stretches (start, stop) of ``still`` (n,) that are driven at a constant speed.
+) -> tuple[list[tuple[int, int]], int]:
+    """The stretches (start, stop) of ``still`` (n,) that are driven at a constant speed, and how
+    many may as well be the rests: where a body drives at one speed again and again, only the start
+    of a log tells that from its rests.
 
     ``gyro`` rad/s and ``accel`` m/s^2 are (n, 3), ``period`` is in s. Rows that ``moves`` (n,)
     marks are known to be no rest, and are not among them.
-    """
-    return drives_and_doubt(time, gyro, accel, still, noise, period, moves)[0]
-
-
-def drives_and_doubt(
-    time: np.ndarray,
-    gyro: np.ndarray,
-    accel: np.ndarray,
-    still: np.ndarray,
-    noise: Noise,
-    period: float,
-    moves: np.ndarray | None = None,
-) -> tuple[list[tuple[int, int]], int]:
-    """What ``driven`` gives, and how many of these may as well be the rests: where a body drives at
-    one speed again and again, only the start of a log tells that from its rests.
     """
     known = np.zeros(len(still), dtype=bool) if moves is None else moves & still
     parts = [(*run, own) for own in (False, True) for run in runs(still & (known == own))]

@@ -16,7 +16,7 @@ from pyimu.ins.compensated import compensated
 from pyimu.ins.detector import Detected, Noise, detect
 from pyimu.ins.filter.layout import open_std
 from pyimu.ins.filter.prediction import LASTS
-from pyimu.ins.speeds import drives_and_doubt
+from pyimu.ins.speeds import driven
 from pyimu.ins.witnesses import REFERENCE, Witness, denied
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
@@ -157,7 +157,7 @@ def _driven(
         if not judges or more.any():
             moves, said = moves | more, said + own
             known = noise, recording.sample_period, moves
-            drives, doubt = drives_and_doubt(*samples, still, *known)
+            drives, doubt = driven(*samples, still, *known)
     said += [Finding("rests_or_drives", "", doubt, {})] if doubt else []
     return drives, moves, said
 

@@ -6,6 +6,8 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 
+from pyimu.numerics.columns import columns_at
+
 WANDER = np.deg2rad(0.1)
 """rad; slow error of the optical reference, Hidalgo 2012, section 6.1: 0.1 to 0.2 deg. As standard
 deviation, so that most of it stays within 0.2."""
@@ -31,7 +33,7 @@ def optical_reference(
     slow *= WANDER / slow.std()
     if every > 1:
         at = np.arange(len(q)) / every
-        slow = np.column_stack([np.interp(at, np.arange(knots), column) for column in slow.T])
+        slow = columns_at(at, np.arange(knots), slow)
     error = slow + NOISE * rng.standard_normal(slow.shape)
     seen = Rotation.from_rotvec(error) * Rotation.from_quat(q, scalar_first=True)
     return seen.as_quat(scalar_first=True)

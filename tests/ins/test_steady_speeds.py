@@ -12,7 +12,7 @@ from pyimu.attitude.rest import find_rest
 from pyimu.ins import run
 from pyimu.ins.detector import Noise, detect
 from pyimu.ins.pushes import unpushed
-from pyimu.ins.speeds import drives_and_doubt
+from pyimu.ins.speeds import driven
 from pyimu.recording.clock import runs
 
 H, G = 0.01, 9.80665
@@ -107,7 +107,7 @@ def told(plan, begins):
     time, speed, log = measured(plan, 7370, begins, bias=0.0)
     noise = Noise(np.full(3, RATE), np.full(3, FORCE), np.full(3, WALK), np.zeros(3))
     still = detect(time, log.gyro, log.accel, noise, H).still
-    return speed, drives_and_doubt(time, log.gyro, log.accel, still, noise, H)
+    return speed, driven(time, log.gyro, log.accel, still, noise, H)
 
 
 def test_where_nothing_tells_rests_from_drives_it_is_said():

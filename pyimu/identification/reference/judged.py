@@ -102,8 +102,7 @@ class Judge:
         if not self.noise or not self._reaches(one):
             return np.inf, np.inf
         if one not in self.known:
-            columns = self._columns(one)
-            power, alike = -self._own(one), 0.0
+            columns, power, alike = self._columns(one), -self._own(one), 0.0
             for i, noise in enumerate(self.noise):
                 y, x, more = self._white(noise, self.shown[:, [i]], columns[i], self._taken[i])
                 y, more = y - explained(x, y), more - explained(x, more)

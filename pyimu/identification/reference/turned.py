@@ -19,6 +19,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.clock import explained_by
 from pyimu.identification.reference.moving import in_own_band, moving_rows, turned_onto
 from pyimu.model.kinds import OWN
+from pyimu.numerics.columns import columns_at
 from pyimu.recording.recording import Recording
 
 LEAST = float(np.radians(1.0))
@@ -68,8 +69,7 @@ def _on_time(log: Recording, trial: Trial) -> np.ndarray:
     if trial.clock is None or not trial.clock.taken_out:
         return log.ref_force
     then = log.time - trial.clock.at(log.time)
-    columns = [np.interp(then, log.time, f, np.nan, np.nan) for f in log.ref_force.T]
-    return np.stack(columns, axis=1)
+    return columns_at(then, log.time, log.ref_force, beyond=np.nan)
 
 
 def with_rest_of_turn(make: Callable, turned: Collection[str]) -> Callable:

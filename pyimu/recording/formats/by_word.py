@@ -21,11 +21,9 @@ LEAST = 0.5
 KINDS = ("gyro", "accel", "mag")
 """What a word may be for; the rows of the first that is there are the log's own."""
 
-
 ANDROID = {"1": "accelerometer", "2": "magnetometer", "4": "gyroscope"}
 """Android's numbers of sensors (Sensor.TYPE_ACCELEROMETER and so on), in a column that is called
-so: ``type``, ``sensor_type``.
-"""
+so: ``type``, ``sensor_type``."""
 
 
 def rows_by_word(lines: Sequence[str], topic: str = "") -> Marked | None:

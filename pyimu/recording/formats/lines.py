@@ -98,16 +98,16 @@ def code_of(path: Path) -> str:
 
 def _code_by_words(head: bytes) -> str | None:
     """The code in which one of the first lines has a word for a quantity, None where none has."""
-    told = (code_by_words(line) for line in head.splitlines() if not _is_utf_8(line))
+    told = (code_by_words(line) for line in head.splitlines() if _in_utf_8(line) is None)
     return next((code for code in told if code is not None), None)
 
 
-def _is_utf_8(line: bytes) -> bool:
+def _in_utf_8(line: bytes, first: bool = False) -> str | None:
+    """A line's text, of the ``first`` one without the mark of the code; None of another code."""
     try:
-        line.decode("utf-8")
+        return line.decode("utf-8-sig" if first else "utf-8")
     except UnicodeDecodeError:
-        return False
-    return True
+        return None
 
 
 def lines(path: Path) -> Iterator[str]:
@@ -125,9 +125,11 @@ def lines(path: Path) -> Iterator[str]:
                 raise UserError(
                     f"{path}: row {number} is longer than {LONGEST >> 10} KiB, this is no table"
                 )
-            if not (looked or line.isascii() or _is_utf_8(line)):
-                code, looked = _told_code(path), True
-            text = _decoded(line, number == 1, code)
+            text = _in_utf_8(line, number == 1)
+            if text is None:
+                if not looked:
+                    code, looked = _told_code(path), True
+                text = _decoded(line, code)
             if text is None:
                 raise UserError(
                     f"{path}: is not text in {UTF_8}, {UTF_16}, {WESTERN} or {CHINESE}; save text "
@@ -141,10 +143,10 @@ def _told_code(path: Path) -> str | None:
         return _code_by_words(stream.read(LONGEST))
 
 
-def _decoded(line: bytes, first: bool, code: str | None) -> str | None:
-    """A line's text, None where it is none; letters of Windows-1252 are no control characters."""
-    if _is_utf_8(line):
-        return line.decode("utf-8-sig" if first else "utf-8")
+def _decoded(line: bytes, code: str | None) -> str | None:
+    """The text of a line in an older code, of ``code`` where that was told, None where it is none;
+    letters of Windows-1252 are no control characters.
+    """
     if code is not None:
         return line.decode(code, "replace")
     chinese = _in_chinese(line)

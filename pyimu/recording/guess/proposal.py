@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyimu.numerics.columns import columns_at
 from pyimu.recording.columns import GROUP_OF, XYZ, own_name
 from pyimu.recording.counter import Unwrapped
 from pyimu.recording.formats.reader import Reader
@@ -46,8 +47,7 @@ class Beside:
         within = (time >= self.time[0]) & (time <= self.time[-1])
         if np.mean(within) < 0.5:
             return None
-        each = [np.interp(time, self.time, f, np.nan, np.nan) for f in self.force.T]
-        return np.column_stack(each)
+        return columns_at(time, self.time, self.force, beyond=np.nan)
 
 
 def forces(reader: Reader, found: Proposal) -> Beside | None:

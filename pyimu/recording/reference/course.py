@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyimu.errors import Finding
+from pyimu.numerics.columns import columns_at
 from pyimu.recording.clock import runs
 from pyimu.recording.quality.inspect import quietest_force
 from pyimu.recording.recording import Recording
@@ -94,7 +95,7 @@ def looks_like_degrees(source: Recording) -> bool:
     if place is None or len(known := fresh(place)) < 8:
         return False
     time, place = source.time[known], place[known]
-    later = np.column_stack([np.interp(time + 1.0, time, column) for column in place.T])
+    later = columns_at(time + 1.0, time, place)
     step = np.quantile(np.abs(later - place), 0.95, axis=0)
     centre, span = np.median(place, axis=0), np.ptp(place, axis=0)
     return bool(

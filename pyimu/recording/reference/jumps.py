@@ -10,6 +10,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import maximum_filter1d, median_filter
 
+from pyimu.numerics.columns import columns_at
 from pyimu.recording.clock import runs
 from pyimu.recording.quality.clipping import clipped
 from pyimu.recording.reference.epoch import ALIKE, correlations
@@ -69,12 +70,14 @@ def jumps(
     from scipy.integrate import cumulative_trapezoid  # a tenth of a second, and few logs need it
 
     angle = cumulative_trapezoid(np.nan_to_num(gyro), time, axis=0, initial=0.0)
-    own = np.diff(_at(known, time, angle), axis=0)
+    own = np.diff(columns_at(known, time, angle), axis=0)
     late = _late(steps, own, usable) * float(np.median(np.diff(known)))
-    usable = _usable(time, known + late, gyro)
-    if np.count_nonzero(usable) < 4 * SIDE:
-        return none
-    beyond = _beyond(steps, np.diff(_at(known + late, time, angle), axis=0), usable)
+    if late:
+        usable = _usable(time, known + late, gyro)
+        own = np.diff(columns_at(known + late, time, angle), axis=0)
+        if np.count_nonzero(usable) < 4 * SIDE:
+            return none
+    beyond = _beyond(steps, own, usable)
     vectors = _distances(np.cumsum(beyond, axis=0), usable)
     size = np.linalg.norm(vectors, axis=1)
     at, gate = _peaks(size)
@@ -83,11 +86,6 @@ def jumps(
     at = at[_less_a_slip(vectors[at], (steps - beyond)[at]) > gate[at]]
     # Sample 0 has no step before it: distance k lies between samples k and k + 1.
     return at + 1, size[at]
-
-
-def _at(instants: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Values (n, 3) at ``time`` (n,) brought to ``instants`` (m,)."""
-    return np.column_stack([np.interp(instants, time, v) for v in values.T])
 
 
 def _late(steps: np.ndarray, turned: np.ndarray, usable: np.ndarray) -> int:

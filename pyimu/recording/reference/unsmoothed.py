@@ -19,6 +19,7 @@ from scipy.optimize import brentq
 from scipy.signal import butter, sosfiltfilt
 
 from pyimu.errors import Finding
+from pyimu.numerics.columns import columns_at
 from pyimu.recording.recording import Recording, at_own_times
 from pyimu.recording.reference.attitude import (
     attitude_at,
@@ -66,10 +67,7 @@ def _mean(values: np.ndarray, rows: float) -> np.ndarray:
     more = int(rows / 2) + 1
     sums = np.cumsum(np.vstack([np.zeros(values.shape[1]), extended(values, more)]), axis=0)
     edge, at = np.arange(len(sums)), more + np.arange(len(values)) + 0.5
-    before, after = (
-        np.column_stack([np.interp(at + side * rows / 2, edge, s) for s in sums.T])
-        for side in (-1, 1)
-    )
+    before, after = (columns_at(at + side * rows / 2, edge, sums) for side in (-1, 1))
     return (after - before) / rows
 
 
