@@ -84,11 +84,13 @@ def witnessed(a: Outcome) -> Iterator[str]:
     """
     for f in a.findings:
         if f.kind == "rest_denied":
-            what = "stretch that looks" if f.count == 1 else "stretches that look"
+            one = f.count == 1
+            what = "stretch that looks" if one else "stretches that look"
             yield (
                 f"{WITNESSES[f.column]} during {f.count} {what} like rest to gyro and "
                 f"accelerometer (the first at {f.detail['first']:.6g} s, "
-                f"{quantity(f.detail['seconds'], 's')} in all): they were taken for drives"
+                f"{quantity(f.detail['seconds'], 's')} in all): "
+                f"{'it was taken for a drive' if one else 'they were taken for drives'}"
                 + (
                     ". Without a reference in the log they would count as rests, and the path be "
                     "another"
