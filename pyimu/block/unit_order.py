@@ -63,31 +63,20 @@ def ordered(plan: Plan) -> list[Unit]:
 
 
 def _listed(
-    needs: list[set[int]], followers: list[list[int]], left: list[int], cycles
+    needs: list[set[int]], followers: list[list[int]], left: list[int], cycles: list[int]
 ) -> list[int]:
     """The list schedule (Graham 1966) of units with so many ``cycles`` to their end ``left``."""
     missing, start = [len(before) for before in needs], [0] * len(needs)
-    users, held = [len(after) for after in followers], 0
     waiting = [(0, n) for n in range(len(needs)) if not missing[n]]
-    ready: set[int] = set()
+    ready = _Ready(needs, followers, left)
     out: list[int] = []
-
-    def more(n: int) -> int:
-        """How many more values are held after a unit."""
-        return (users[n] > 0) - sum(users[m] == 1 for m in needs[n])
-
     now = 0
     while len(out) < len(needs):
         while waiting and waiting[0][0] <= now:
             ready.add(heappop(waiting)[1])
-        for _ in range(min(AT_ONCE, len(ready))):
-            full = held > HELD
-            n = min(ready, key=lambda k: (more(k) if full else 0, -left[k], k))
-            ready.discard(n)
-            held += more(n)
+        for _ in range(min(AT_ONCE, len(ready.units))):
+            n = ready.taken()
             out.append(n)
-            for m in needs[n]:
-                users[m] -= 1
             for m in followers[n]:
                 start[m] = max(start[m], now + cycles[n])
                 missing[m] -= 1
@@ -95,6 +84,61 @@ def _listed(
                     heappush(waiting, (start[m], m))
         now += 1
     return out
+
+
+class _Ready:
+    """The ``units`` that can begin, and how many values are ``held`` for their use.
+
+    A unit stands in two heaps, by what it leaves to do and by how many more values are held after
+    it; the second changes while it waits, so that its older entries there no longer count.
+    """
+
+    def __init__(self, needs: list[set[int]], followers: list[list[int]], left: list[int]) -> None:
+        self.needs, self.followers, self.left = needs, followers, left
+        self.units: set[int] = set()
+        self.held = 0
+        self._users = [len(after) for after in followers]
+        self._more = [
+            (self._users[n] > 0) - sum(self._users[m] == 1 for m in before)
+            for n, before in enumerate(needs)
+        ]
+        self._done = [False] * len(needs)
+        self._by_left: list[tuple[int, int]] = []
+        self._by_more: list[tuple[int, int, int]] = []
+
+    def add(self, n: int) -> None:
+        self.units.add(n)
+        heappush(self._by_left, (-self.left[n], n))
+        heappush(self._by_more, (self._more[n], -self.left[n], n))
+
+    def taken(self) -> int:
+        """The unit that is done next."""
+        n = self._fewest() if self.held > HELD else self._longest()
+        self.units.discard(n)
+        self._done[n] = True
+        self.held += self._more[n]
+        for m in self.needs[n]:
+            self._users[m] -= 1
+            if self._users[m] == 1:
+                self._ends(next(f for f in self.followers[m] if not self._done[f]))
+        return n
+
+    def _longest(self) -> int:
+        while self._by_left[0][1] not in self.units:
+            heappop(self._by_left)
+        return heappop(self._by_left)[1]
+
+    def _fewest(self) -> int:
+        while True:
+            more, _, n = heappop(self._by_more)
+            if n in self.units and more == self._more[n]:
+                return n
+
+    def _ends(self, n: int) -> None:
+        """A unit has become the last that uses one of its values."""
+        self._more[n] -= 1
+        if n in self.units:
+            heappush(self._by_more, (self._more[n], -self.left[n], n))
 
 
 def _cycles(plan: Plan, unit: Unit) -> int:

@@ -108,32 +108,30 @@ class Units:
         return (read[0][0], start) if 0 <= start and max(entries) < start + MOST else None
 
 
-def stores(alike: Alike, choice: Choice, entries: dict[int, int]) -> tuple[float, list[Value]]:
-    """What it costs to store the ``entries`` of a result, and the values that are stored."""
-    found = [*_stored(alike, choice, entries)]
-    return sum(cost for *_, cost in found), [made for *_, made, _ in found if made is not None]
-
-
-def _stored(
-    alike: Alike, choice: Choice, entries: dict[int, int]
+def stored(
+    alike: Alike, choice: Choice, entries: dict[int, int], first: int = 0
 ) -> Iterator[tuple[int, str, Lanes, Value | None, float]]:
-    """Of each unit that stores some of the ``entries`` of a result the first of these, its kind and
-    lanes, the value that it takes, None where that is an input, and its cost.
+    """Of each unit that stores some of the ``entries`` of a result, from the ``first`` on, the
+    first of these, its kind and lanes, the value that it takes, None where that is an input, and
+    its cost. A unit stores at most ``MOST`` entries, and follows from these alone.
     """
-    done: set[int] = set()
-    for entry, k in entries.items():
-        if entry in done:
+    begins, last = first, max(entries, default=-1)
+    while begins <= last:
+        entry = begins
+        if entry not in entries:
+            begins += 1
             continue
         copied = _copied(alike, entries, entry)
         if copied:
-            done.update(range(entry, entry + MOST))
+            begins += MOST
             yield entry, "copied", copied, None, STORED[MOST]
             continue
+        k = entries[entry]
         lanes, lane = choice.get(k, (_constants(alike, entries, entry) or (k,), 0))
         made = lanes if len(lanes) > 1 else None if alike.is_leaf(k) else k
         if lane or any(entries.get(entry + n) != j for n, j in enumerate(lanes)):
             lanes = (k,)
-        done.update(range(entry, entry + len(lanes)))
+        begins += len(lanes)
         yield entry, "stored", lanes, made, STORED[len(lanes)] + (len(lanes) == 1) * (lane > 1)
 
 
@@ -197,7 +195,7 @@ class Plan:
             self._store(number, entries)
 
     def _store(self, number: int, entries: dict[int, int]) -> None:
-        for entry, kind, lanes, made, cost in _stored(self.alike, self.choice, entries):
+        for entry, kind, lanes, made, cost in stored(self.alike, self.choice, entries):
             if made is not None:
                 self._make(made)
             self.cost += cost
