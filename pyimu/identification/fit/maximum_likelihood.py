@@ -163,6 +163,14 @@ def _beside_its_walk(fitted: Fit, noise: Noise) -> float:
     return best
 
 
+def advantage_by_its_noise(start: Fit, current: Fit, steps: int = 6) -> float:
+    """Log-likelihood [nat] of least squares from a ``start`` on, by the noise that the current
+    model has, over that model.
+    """
+    moved = _least_squares(replace(start, noise=current.noise), steps)
+    return _likelihood(moved) - _likelihood(current)
+
+
 def advantage_by_one_noise(one: Fit, other: Fit) -> float:
     """Log-likelihood [nat] of one fitted model over another on rows of the same samples, both by
     the noise of the one that leaves less.

@@ -27,6 +27,7 @@ from pyimu.identification.search.choice import (
     Refined,
     ahead,
     plainest_form,
+    promises,
     refine,
     share_left,
 )
@@ -78,7 +79,10 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     shown = damping(wide, by_sensor=True)
     if not _damps_more(shown, gate):
         return None
-    found = [_best(wide, e) for e in forms]
+    starts = {e.name: [_from(wide, e, delay) for delay in STARTS] for e in forms}
+    if not any(promises(c, start, wide) for one in starts.values() for start, c in one):
+        return None
+    found = [_best(one) for one in starts.values()]
     above = gate + np.log(len(forms) * len(STARTS))
     found = [r for r in found if r.gain > above and _is_seen(r, wide, shown[0])]
     if not found:
@@ -164,13 +168,14 @@ def apart(trial: Trial) -> Trial:
     return replace(trial, u=u, clock=whole, segments=kept or trial.segments)
 
 
-def _best(current: Fit, e: Effect) -> Refined:
-    """An effect beside the clocks, fitted from the delay on from which it explains most."""
-    return max((_from(current, e, delay) for delay in STARTS), key=lambda r: r.gain)
+def _best(starts: list[tuple[Fit, Screened]]) -> Refined:
+    """An effect beside the clocks, fitted from where it explains most."""
+    found = (refine(start, c) for start, c in starts)
+    return max((r if _damps(r) else replace(r, gain=-np.inf) for r in found), key=lambda r: r.gain)
 
 
-def _from(current: Fit, e: Effect, delay: float) -> Refined:
-    """An effect fitted from a ``delay`` in s on, by which the clocks are less."""
+def _from(current: Fit, e: Effect, delay: float) -> tuple[Fit, Screened]:
+    """An effect that begins with a ``delay`` in s, beside the clocks that are less by it."""
     name, parameter = next((n, p) for n, p in e.parameters.items() if p.sought)
     identity = {n: float(np.mean(v)) for n, v in e.start().items()}
     # A time constant is in proportion to the delay, a frequency to one over it.
@@ -180,8 +185,7 @@ def _from(current: Fit, e: Effect, delay: float) -> Refined:
     group = Group(e.name, keys, (Choice((), value),))
     start = Screened(e.name, 0.0, (group,), {(): value}, np.nan)
     states = {name: _later(s, -delay) for name, s in current.states.items()}
-    found = refine(replace(current, states=states), start)
-    return found if _damps(found) else replace(found, gain=-np.inf)
+    return replace(current, states=states), start
 
 
 def _later(state: LogState, seconds: float) -> LogState:
