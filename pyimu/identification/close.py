@@ -41,6 +41,7 @@ from pyimu.identification.reference.gravity import few, rest_trials
 from pyimu.identification.reference.of_itself import made_of_it
 from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
+from pyimu.identification.reference.told import told
 from pyimu.identification.reference.turned import with_rest_of_turn, with_turned_force
 from pyimu.identification.reference.turns import turn_trials
 from pyimu.identification.reference.unfiltered import unfiltered_logs, with_sharp_places
@@ -185,12 +186,13 @@ def _investigated(
     found: dict[str, Investigation] = {}
     looks: dict[str, Look] = {}
     quality: list[Finding] = []
-    own = made_of_it([*turning[0], *turning[1]], [*logs, *others])
+    gyros = [*turning[0], *turning[1]]
+    own = told(gyros) or made_of_it(gyros, [*logs, *others])
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
         known, given = {}, (logs, others)
         if kind == "accel":
-            known, both = clocks_of(turning), [*turning[0], *turning[1]]
-            given = tuple([with_turned_force(r, both) for r in some] for some in given)
+            known = clocks_of(turning)
+            given = tuple([with_turned_force(r, gyros) for r in some] for some in given)
             were = {id(r) for r in (*logs, *others)}
             make = with_rest_of_turn(
                 make, {r.name for some in given for r in some if id(r) not in were}
