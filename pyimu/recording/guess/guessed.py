@@ -23,7 +23,7 @@ class Guess:
     """A column of the file and what it may be: ``target`` such as ``gyro_x``, its unit, and why.
 
     ``unit`` is None where nobody knows; ``value`` the size of a count in it, ``sizes`` those
-    that it may have, in deg/s or g.
+    that it may have, in deg/s or g, and ``choices`` the units, where they are fewer than usual.
     """
 
     cell: str
@@ -32,6 +32,7 @@ class Guess:
     why: str
     value: float | None = None
     sizes: tuple[float, ...] = ()
+    choices: tuple[str, ...] = ()
 
     @property
     def group(self) -> str:

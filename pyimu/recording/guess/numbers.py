@@ -49,6 +49,9 @@ FASTEST = 100.0
 WARM, WARM_K = (-40.0, 125.0), (233.15, 398.15)
 """degC and K within which electronics are specified to work."""
 
+WARM_F = (65.0, 115.0)
+"""degF; 18 to 46 degC. Electronics that heat themselves, as autopilots do, keep to 60 degC."""
+
 WRAP = 0.05
 """How near to a whole turn a step of an angle must come to be one that is counted anew."""
 
@@ -73,6 +76,9 @@ WRITTEN = {1000 * np.pi / 180: "mrad/s", 1000.0: "mdeg/s"}
 WRITTEN_FITS = 0.015
 """By how much these may be off: 17.45 is 6 % off the 16.4 that gyros have."""
 
+GALS = 100 * STANDARD_GRAVITY
+"""Gravity in cm/s^2, which is as near to the 1000 mg of a sensor with a usual bias as that is."""
+
 FITS = 0.25
 """By how much a sensitivity may differ from what gravity's turning shows."""
 
@@ -88,13 +94,15 @@ class UnitGuess:
     """A unit and the reason for it; ``unit`` is None where the numbers do not tell.
 
     ``value`` is the size of one count in ``unit`` where the numbers are counts. ``sizes`` are those
-    that it may have, in deg/s or g, where ``unit`` is None for there are several.
+    that it may have, in deg/s or g, and ``choices`` the units, where ``unit`` is None for there are
+    several.
     """
 
     unit: str | None
     why: str
     value: float | None = None
     sizes: tuple[float, ...] = ()
+    choices: tuple[str, ...] = ()
 
 
 def time_unit(time: np.ndarray) -> UnitGuess:
@@ -140,9 +148,13 @@ def _year(since: float) -> int:
 
 def warmth_unit(warmth: np.ndarray) -> UnitGuess:
     """The unit of temperatures (n,) of electronics, degC or K, of which ``WARM`` and ``WARM_K``
-    have nothing in common; whole numbers may be counts, and are in degC else.
+    have nothing in common; whole numbers may be counts, and are in degC else. What would be hot in
+    degC and as warm as a room or a case in degF is left open.
     """
     known = warmth[np.isfinite(warmth)]
+    if len(known) and WARM_F[0] < (hot := float(np.median(known))) < WARM_F[1]:
+        other = (hot - 32) / 1.8
+        return UnitGuess(None, f"{hot:.3g} degC would be hot; in degF it is {other:.3g} degC")
     whole = bool(np.all(known == np.rint(known)))
     if len(known) and not counts(known):
         for unit, (least, most) in (("degC", WARM), ("K", WARM_K)):
@@ -170,9 +182,10 @@ def force_unit(force: np.ndarray) -> UnitGuess:
         if abs(size / one - 1) < NEAR_GRAVITY:
             if unit == "mg" and _is_power(size) and counts(force.ravel()):
                 continue
-            near = unit == "mg" and abs(size / (100 * STANDARD_GRAVITY) - 1) < WRITTEN_FITS
-            other = f"; were they cm/s^2 it would be {size / 100:.4g} m/s^2" if near else ""
-            return UnitGuess(unit, f"gravity is {size:.4g} then{other}")
+            if unit == "mg" and abs(size / GALS - 1) < min(WRITTEN_FITS, abs(size / one - 1)):
+                why = f"gravity is {size:.4g}: mg of a sensor that is off by 2 %, or cm/s^2?"
+                return UnitGuess(None, why, choices=("mg", "cm/s^2"))
+            return UnitGuess(unit, f"gravity is {size:.4g} then")
     if counts(force.ravel()) and size > 100:
         return _counts_a_g(size)
     return UnitGuess(None, f"gravity is {size:.4g}, in no usual unit (does the log hold it?)")

@@ -135,7 +135,15 @@ def _vector(
         return
     found.add(
         [
-            Guess(name.cell, f"{group}_{axis}", guess.unit, guess.why, guess.value, guess.sizes)
+            Guess(
+                name.cell,
+                f"{group}_{axis}",
+                guess.unit,
+                guess.why,
+                guess.value,
+                guess.sizes,
+                guess.choices,
+            )
             for axis, (_, name) in zip(XYZ, picked, strict=True)
         ]
     )

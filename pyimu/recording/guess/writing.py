@@ -107,7 +107,7 @@ def _columns(guesses: Sequence[Guess]) -> list[str]:
     lines = []
     for guess in guesses:
         if guess.unit is None:
-            choices = ("count",) if guess.sizes else CHOICES[guess.group]
+            choices = ("count",) if guess.sizes else guess.choices or CHOICES[guess.group]
             lines += [_remarked(f"# {_line(guess, u)}", guess.why) for u in choices]
             continue
         unit = guess.unit if guess.value is None else "count"

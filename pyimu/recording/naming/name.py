@@ -133,7 +133,7 @@ def _unit(said: str, text: str) -> str | None:
         sure = {group: name.of(group) for group in ("accel", "mag")}
         if max(sure.values()) > min(sure.values()):
             return EITHER[said][sure["mag"] > sure["accel"]]
-    return "degC" if found is None and said == "C" else found
+    return {"C": "degC", "F": "degF"}.get(said) if found is None else found
 
 
 def _axis(words: list[str]) -> tuple[str, list[str]]:

@@ -47,7 +47,7 @@ CLOCKS = ("s", "ms", "us", "ns", "min", "h", "day")
 
 TEMPERATURES = {"temp", "temperature", "celsius", "imutemp"}
 
-LETTERS = {"c": "degC", "k": "K"}
+LETTERS = {"c": "degC", "k": "K", "f": "degF"}
 """Letters for the unit of a temperature, where they end its name: ``temp_c``."""
 
 INERTIAL = {"imu", "mpu", "mems", "inertial", "imutemp"}
