@@ -170,11 +170,16 @@ def _proposals(
         else _declared(reader, replace(own, rate=own.rate or rate))
         for reader, own in zip(readers, maps, strict=True)
     ]
-    beside = next((f for r, p in zip(readers, found) if (f := forces(r, p)) is not None), None)
-    for k, (reader, own) in enumerate(zip(readers, maps, strict=True)):
-        if own is None and beside is not None and "accel" not in found[k].groups:
-            if "gyro" in found[k].open_questions:
-                found[k] = proposed(reader, rate, beside)
+    asked = [
+        k
+        for k, own in enumerate(maps)
+        if own is None and "accel" not in found[k].groups and "gyro" in found[k].open_questions
+    ]
+    if asked:
+        forces_of = (forces(r, p) for r, p in zip(readers, found, strict=True))
+        beside = next((force for force in forces_of if force is not None), None)
+        for k in asked if beside is not None else ():
+            found[k] = proposed(readers[k], rate, beside)
     if foreign is None:
         _once(_ordered(found))
     else:

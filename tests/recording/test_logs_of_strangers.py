@@ -4,9 +4,10 @@ silence, or refused without the word that helps.
 
 import numpy as np
 import pytest
-from turned_logs import agrees, by_its_map, rows, turned, written
+from turned_logs import H, agrees, by_its_map, rows, turned, written
 
 from pyimu import inspect
+from pyimu.recording.formats.pairs import pairs_of
 from pyimu.recording.guess.numbers import warmth_unit
 from pyimu.recording.naming.name import named
 
@@ -56,3 +57,56 @@ def test_units_of_headers(cell, unit):
 def test_a_temperature_that_may_be_in_fahrenheit_is_asked_about(middle, unit):
     """25 degC in a room are 77 degF, which had been taken for degC."""
     assert warmth_unit(middle + 0.1 * np.sin(np.arange(300.0))).unit == unit
+
+
+def of_vectors(form):
+    """Lines with a vector behind each label."""
+
+    def made(log):
+        return [
+            form.format(round(1000 * t), *(f"{v:.9g}" for v in (*f, *w)))
+            for t, w, f in zip(*log, strict=True)
+        ]
+
+    return made
+
+
+VECTORS = {
+    "commas": of_vectors("acc: {1},{2},{3} gyro: {4},{5},{6}"),
+    "named axes": of_vectors("AccXYZ={1};{2};{3} GyroXYZ={4};{5};{6}"),
+    "a time": of_vectors("time: {0}, accel: {1}, {2}, {3}, gyro: {4}, {5}, {6}"),
+    "brackets": of_vectors("{0} Acc [{1}, {2}, {3}] Gyro [{4}, {5}, {6}]"),
+    "letters": of_vectors("t:{0} A:({1},{2},{3}) G:({4},{5},{6})"),
+    "JSON": of_vectors('{{"t": {0}, "acc": [{1}, {2}, {3}], "gyr": [{4}, {5}, {6}]}}'),
+    "units": of_vectors("acc: {1} {2} {3} m/s^2 gyro: {4} {5} {6} rad/s"),
+    "two lines": of_vectors("acc: {1},{2},{3}\ngyro: {4},{5},{6}"),
+    "labels alone": of_vectors("Acc\n{1}\n{2}\n{3}\nGyro\n{4}\n{5}\n{6}"),
+    "labels above": of_vectors("Acc (m/s^2):\n{1} {2} {3}\nGyro (rad/s):\n{4} {5} {6}"),
+}
+
+
+@pytest.mark.parametrize("kind", VECTORS)
+def test_a_label_before_a_vector(kind, log, tmp_path):
+    """They had been cut at the commas, or taken for a table without names."""
+    path = written(tmp_path / "log.txt", VECTORS[kind](log))
+    rate = tmp_path / "rate.toml"
+    rate.write_text(f'sample_rate = {{value = {1 / H}, unit = "Hz"}}\n')
+    timeless = "time" not in [g.group for g in inspect(path).proposals[0].guesses]
+    found = inspect(path, rate if timeless else None)
+    agrees(found.recording, log)
+
+
+def test_a_number_with_a_decimal_comma_behind_a_label_is_no_vector():
+    """``ax: 0,12`` is neither 0 nor a vector of two."""
+    assert pairs_of("ax: 0,12 ay: 0,34 az: 9,81") is None
+    assert pairs_of("acc: 0,12 0,34 9,81") is None
+    assert pairs_of("accel[0]: 0.12") == [("accel[0]", "0.12", None)]
+
+
+@pytest.mark.parametrize("line", ["", "lost", "acc: 0.1,0.2", "acc: 0.1,0.2,0.3,0.4 gyro: 1,2,3"])
+def test_a_line_that_lost_some_of_a_vector_is_no_row(line, log, tmp_path):
+    lines = VECTORS["a time"](log)
+    lines.insert(200, line)
+    found = by_its_map(written(tmp_path / "log.txt", lines), tmp_path)
+    agrees(found, log)
+    assert ("rows_left_out" in {f.kind for f in found.findings}) == bool(line)

@@ -20,13 +20,14 @@ from pyimu.recording.formats.bodies import total_capture
 from pyimu.recording.formats.by_word import rows_by_word
 from pyimu.recording.formats.cells import MISSING, is_number
 from pyimu.recording.formats.clock_times import is_clock_time
+from pyimu.recording.formats.headed import headed
+from pyimu.recording.formats.labelled import labelled
 from pyimu.recording.formats.lines import UTF_8, code_of, is_comment, lines
 from pyimu.recording.formats.marked import (
     GNSS_LOGGER,
     SHARE,
     Marked,
     gnss_logger,
-    labelled,
     sentences,
     vectornav,
 )
@@ -230,6 +231,7 @@ def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
         or sentences(rows)
         or total_capture(rows)
         or labelled(head, path)
+        or headed(head, path)
         or rows_by_word(rows)
     )
 
