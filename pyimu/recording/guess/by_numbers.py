@@ -59,7 +59,7 @@ def by_numbers(
     away |= {k for k, numbers_of_it in column.items() if rises(numbers_of_it)}
     runs = [run for run in runs if not set(run) & away]
     values = {tuple(run): np.column_stack([column[k] for k in run]) for run in runs}
-    like = [run for run in values if force_unit(values[run]).unit is not None]
+    like = [run for run in values if force_unit(values[run]).fits]
     away |= _directions(found, reader, values, like)
     values = {run: v for run, v in values.items() if not set(run) & away}
     like = [run for run in like if run in values]
@@ -187,7 +187,7 @@ def missing(
         values = numbers.of(at)
         guess = force_unit(values) if group == "accel" else rate_unit(values, force, period)
         cells = ", ".join(reader.header[k] for k in at)
-        if guess.unit is not None and (group == "accel" or "gravity" in guess.why):
+        if guess.fits and (group == "accel" or "gravity" in guess.why):
             found.notes.append(f"{cells} were taken for the {group} by their numbers alone")
             return [(k, names[k]) for k in at]
         found.notes.append(f"{cells} are left out: they may be the {group} ({guess.why})")

@@ -104,6 +104,11 @@ class UnitGuess:
     sizes: tuple[float, ...] = ()
     choices: tuple[str, ...] = ()
 
+    @property
+    def fits(self) -> bool:
+        """Whether it is one of the vector's units, be it of several."""
+        return self.unit is not None or bool(self.choices)
+
 
 def time_unit(time: np.ndarray) -> UnitGuess:
     """The unit in which the times (n,) count.
