@@ -16,11 +16,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import harness
+import log_arrays
 import log_files
 import log_folders
 import log_lines
 import log_tables
 import raw_logs
+import turned_logs
 
 from pyimu.errors import UserError
 from pyimu.inspection.run import inspect
@@ -96,6 +98,9 @@ def seeds(folder: Path) -> None:
         make(_mapped(folder, make.__name__), still)
     for kind in ("mat", "mat73", "hdf5"):
         log_files.written(_mapped(folder, kind), kind, log)
+    for make in (*log_arrays.ARRAYS, *log_arrays.JSONS):
+        of_turned = [part[:ROWS] for part in turned_logs.turned()]
+        _take(folder, make.__name__, lambda place, make=make: make(place, of_turned))
     (folder / "map.toml").write_text(log_files.MAP)
 
 

@@ -90,7 +90,8 @@ class Bomb:
 
 
 @pytest.mark.parametrize(
-    "suffix", ("csv", "csv.gz", "parquet", "mat", "h5", "bag", "mcap", "db3", "toml", "pkl", "npy")
+    "suffix",
+    ("csv", "csv.gz", "parquet", "mat", "h5", "bag", "mcap", "db3", "toml", "pkl", "npy", "npz"),
 )
 def test_an_object_in_a_file_is_not_read_back(pyimu, tmp_path, suffix):
     """Whatever the file is called: as a log, a part, a map of columns."""

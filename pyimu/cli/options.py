@@ -27,7 +27,7 @@ def option(name: str, text: str) -> Any:
     return typer.Option(name, help=text)
 
 
-FORMATS = "table in text, Parquet, MAT, HDF5, ROS bag, MCAP, ULog or dataflash"
+FORMATS = "table in text, Parquet, MAT, HDF5, NumPy, JSON, ROS bag, MCAP, ULog or dataflash"
 """Files that a recording may be."""
 
 Log = Annotated[

@@ -261,8 +261,8 @@ def open_log(path: str | os.PathLike, columns: str | os.PathLike | None = None) 
 def read_recording(path: str | os.PathLike, columns: str | os.PathLike | None = None) -> Recording:
     """Read the recording in ``path``, in the format of its suffix.
 
-    Suffixes are .csv, .csv.gz, .parquet, .mat, .h5, .hdf5, .json, .jsonl, .bag, .db3 and .mcap; the
-    path may also be the folder of a bag of ROS 2.
+    Suffixes are .csv, .csv.gz, .parquet, .mat, .h5, .hdf5, .npy, .npz, .json, .jsonl, .bag, .db3
+    and .mcap; the path may also be the folder of a bag of ROS 2.
 
     ``columns`` is a TOML file for a foreign log; it renames columns, declares axes, gives the size
     of raw counts, and picks the topics of a bag::

@@ -28,13 +28,15 @@ the same."""
 class StreamReader(Reader):
     """Columns (n,) in memory by the name and unit that a recording's header has.
 
-    ``body`` names the axes that the format defines.
+    ``body`` names the axes that the format defines, ``rate`` [Hz] is what the file states.
     """
 
     path: Path
     columns: dict[str, np.ndarray]
     findings: tuple[Finding, ...] = ()
     body: str | None = "frd"
+    rate: float | None = None
+    clocks: tuple[str, ...] = ()
 
     @property
     def header(self) -> list[str]:  # type: ignore[override]

@@ -22,6 +22,7 @@ from pyimu.recording.formats.hdf5 import Hdf5Reader
 from pyimu.recording.formats.json_rows import JsonReader
 from pyimu.recording.formats.layout import MESSAGES, NO_TOPICS
 from pyimu.recording.formats.mat import MatReader
+from pyimu.recording.formats.numpy_arrays import NpyReader, NpzReader
 from pyimu.recording.formats.oxts import OxtsReader, oxts_in
 from pyimu.recording.formats.parquet import ParquetReader
 from pyimu.recording.formats.reader import Reader
@@ -38,6 +39,8 @@ READERS: Mapping[str, Any] = MappingProxyType(
         ".mat": MatReader,
         ".h5": Hdf5Reader,
         ".hdf5": Hdf5Reader,
+        ".npy": NpyReader,
+        ".npz": NpzReader,
         ".bag": BagReader,
         ".db3": BagReader,
         ".mcap": BagReader,
@@ -55,7 +58,7 @@ OTHERS: Mapping[str, str] = MappingProxyType(
     dict.fromkeys((".xlsx", ".xls", ".xlsm", ".ods"), "save its sheet as CSV")
     | dict.fromkeys((".zip", ".7z", ".rar", ".tar", ".tgz", ".tar.gz"), "unpack it")
     | dict.fromkeys((".bz2", ".xz", ".zst", ".gz"), "unpack it")
-    | dict.fromkeys((".npy", ".npz", ".pkl", ".pickle", ".feather"), "make a CSV or Parquet of it")
+    | dict.fromkeys((".pkl", ".pickle", ".feather"), "make a CSV or Parquet of it")
     | dict.fromkeys((".yaml", ".yml"), MESSAGES)
 )
 """What is to be done with files of other suffixes; with any else see ``open_reader``."""
