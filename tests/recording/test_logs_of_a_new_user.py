@@ -153,7 +153,7 @@ def test_fahrenheit(columns, tmp_path):
         ("log.xlsx", b"PK", "save its sheet as CSV"),
         ("log.zip", b"PK", "unpack it"),
         ("log.csv.xz", b"", "unpack it"),
-        ("log.npy", b"", "make a CSV or Parquet of it"),
+        ("log.pkl", b"", "make a CSV or Parquet of it"),
         ("imu.yaml", b"", "rostopic echo -p"),
         ("log.abc", b"", "rename text to .txt"),
         ("log.csv", b"", "log.csv: is empty"),

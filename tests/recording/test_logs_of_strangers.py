@@ -110,3 +110,32 @@ def test_a_line_that_lost_some_of_a_vector_is_no_row(line, log, tmp_path):
     found = by_its_map(written(tmp_path / "log.txt", lines), tmp_path)
     agrees(found, log)
     assert ("rows_left_out" in {f.kind for f in found.findings}) == bool(line)
+
+
+@pytest.mark.parametrize("frames, each", [(25, 4), (50, 2), (100, 1)])
+def test_frames_and_hundredths_behind_a_third_colon(frames, each, log, tmp_path):
+    """They had been no times at all."""
+    some = [part[::each] for part in log]
+    whole = np.rint(some[0] * frames).astype(int)
+    stamps = [f"23:59:{50 + k // frames:02d}:{k % frames:02d}" for k in whole if k < 10 * frames]
+    stamps += [f"00:00:{k // frames - 10:02d}:{k % frames:02d}" for k in whole if k >= 10 * frames]
+    lines = ["Timecode,ax,ay,az,gx,gy,gz", *rows(stamps, some[2], some[1])]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines), tmp_path), some)
+
+
+@pytest.mark.parametrize("cell, every", [("unixtime", 1.0), ("time_s", 1.0), ("time_s", 0.02)])
+def test_numbers_coarser_than_the_samples_are_times(cell, every, log, tmp_path):
+    """Whole seconds, as of a log with one stamp for all rows of a second, had been no times."""
+    stamps = 1.7e9 * (cell == "unixtime") + every * np.floor(log[0] / every + 1e-6)
+    lines = [f"{cell},ax,ay,az,gx,gy,gz", *rows(stamps, log[2], log[1], form="{:.12g}")]
+    found = by_its_map(written(tmp_path / "log.csv", lines), tmp_path)
+    assert "coarse_stamps" in {f.kind for f in found.findings}
+    agrees(found, log)
+
+
+def test_a_time_beyond_all_numbers_is_no_bug(log, tmp_path):
+    """Two columns of times, of which one jumps to 1e308, had ended in a traceback."""
+    time = log[0].copy()
+    time[30:] += 1e308
+    lines = ["time_s,stamp_s,ax,ay,az,gx,gy,gz", *rows(time, time, log[2], log[1])]
+    assert inspect(written(tmp_path / "log.csv", lines)).recording is None

@@ -2,10 +2,10 @@
 
 A date that ends with its year may have its day first or its month: of ``2/1/2024 12:00:00`` the
 time of day alone counts, and of ``Wed Dec 22 21:09:46 2021`` and ``01-Feb-2024 12:00:00.010``.
-Phones write milliseconds behind a
-third colon, ``12:00:00:010``, spreadsheets AM or PM behind the time, and pandas' spans the days
-before it, ``0 days 00:00:00.010``. Spreadsheets show times with parts of a second without their
-hours, ``59:59.9``, and MATLAB spans with their unit, ``0.01 sec``.
+Phones write milliseconds behind a third colon, ``12:00:00:010``, cameras frames or hundredths,
+``12:00:00:24``, spreadsheets AM or PM behind the time, and pandas' spans the days before it, ``0
+days 00:00:00.010``. Spreadsheets show times with parts of a second without their hours,
+``59:59.9``, and MATLAB spans with their unit, ``0.01 sec``.
 
 And those that Parquet files and data frames hold as such, with spans of time.
 """
@@ -27,7 +27,7 @@ _PATTERN = (
     rf"|{_WEEKDAY} {_MONTH} +\d{{1,2}} |\d{{1,2}}-{_MONTH}-\d{{4}} "
     r"|(?P<days>\d{1,5}) days? )?"
     r"(?:(?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2})"
-    r"(?:[.,](?P<part>\d{1,9})\d*|:(?P<thousandths>\d{3}))?"
+    r"(?:[.,](?P<part>\d{1,9})\d*|:(?P<thousandths>\d{3})|:(?P<frames>\d{2}))?"
     r"|(?P<span>\d+(?:\.\d+)?(?:[eE][-+]?\d+)?) (?P<unit>sec|min|hr)"
     r"|(?P<minutes>\d{1,3}):(?P<of_minute>\d{2})[.,](?P<of_second>\d{1,9}))"
     r"(?:\s*(?P<noon>[AaPp])\.?[Mm]\.?)?"
@@ -36,6 +36,12 @@ _PATTERN = (
 
 DAY, HOUR = 86400, 3600
 """s."""
+
+FRAMES = (24, 25, 30, 48, 50, 60, 100)
+"""Frames a second of cameras; what counts further are hundredths."""
+
+LEAST_FRAMES = 10
+"""Different ones that tell how many there are: of few the largest need not be there."""
 
 
 def is_clock_time(cell: str) -> bool:
@@ -54,6 +60,7 @@ class ClockTimes:
         self._first_day: int | None = None
         self._days = 0
         self._last: float | None = None
+        self._frames: int | None = None
 
     def add(self, cells: pa.Array) -> np.ndarray:
         """Seconds (n,) of texts, NaN where one is missing or none."""
@@ -69,6 +76,11 @@ class ClockTimes:
         digits = pc.utf8_rpad(parts, width=9, padding="0")
         seconds = hour * HOUR + (minute + minutes) * 60 + second + of_minute
         seconds = seconds - _zone(field["zone"], known) + _spans(field["span"], field["unit"])
+        frames = _whole(field["frames"], known)
+        if self._frames is None and frames.any():
+            several = len(np.unique(frames[known])) >= LEAST_FRAMES
+            self._frames = next(n for n in FRAMES if n > frames.max()) if several else FRAMES[-1]
+        seconds = seconds + frames / (self._frames or 1)
         days = _days(field, known) + _whole(field["days"], known)
         if known.any() and self._first_day is None:
             at = int(np.flatnonzero(known)[0])

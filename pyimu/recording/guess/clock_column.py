@@ -31,7 +31,7 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
         values = Unwrapped(*SECONDS.values()).add(numbers.of([k]))
         if not names[k].is_time and _counts_rows(values):
             found.notes.append(f"{reader.header[k]} counts the rows, and is no time")
-        elif rises(values) or (k in clocks and _mean_rate(values) is not None):
+        elif rises(values) or (names[k].is_time or k in clocks) and _mean_rate(values) is not None:
             guess = CLOCK if k in clocks else _time_guess(names[k], values)
             candidates.append((k, values, guess))
     if not candidates:
@@ -51,10 +51,12 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
         if other != k:
             found.notes.append(f"{reader.header[other]} may be the time, too ({its.why})")
     found.add([Guess(reader.header[k], "time", guess.unit, guess.why, guess.value)])
-    if k in clocks and not rises(values):  # whole seconds, which reading divides among their rows
-        return 1 / (_mean_rate(values) or 1.0)
     one = SECONDS.get(guess.unit or "", 0.0) * (guess.value or 1.0)
-    return _period(values) * one or None
+    if not rises(values):  # whole seconds, say, which reading divides among their rows
+        period = one / (_mean_rate(values) or 1.0)
+    else:
+        period = _period(values) * one
+    return period if 1e-6 <= period <= 1e3 else None
 
 
 def _mean_rate(values: np.ndarray) -> float | None:
@@ -74,7 +76,7 @@ def _counts_rows(values: np.ndarray) -> bool:
 
 
 def _period(values: np.ndarray) -> float:
-    step = np.diff(values)
+    step = np.diff(values[np.isfinite(values)])
     return float(np.median(step[step > 0]))
 
 
@@ -82,9 +84,11 @@ def _unevenness(values: np.ndarray) -> float:
     """Scatter of the steps in periods, in powers of 1.3: of two clocks that of the sensor is the
     finer one.
     """
-    step = np.diff(values).astype(float)
-    scatter = float(np.std(step) / max(np.median(step), 1e-300))
-    return round(np.log(max(scatter, 1e-6)) / np.log(1.3))
+    step = np.diff(values[np.isfinite(values)]).astype(float)
+    with np.errstate(over="ignore", invalid="ignore"):
+        scatter = float(np.std(step) / max(np.median(step), 1e-300))
+    known = scatter if np.isfinite(scatter) else np.finfo(float).max  # steps of 1e308
+    return round(np.log(max(known, 1e-6)) / np.log(1.3))
 
 
 def _time_guess(name: Name, values: np.ndarray) -> UnitGuess:

@@ -28,7 +28,9 @@ WEAK = {
 TIMES = {"time", "times", "timestamp", "timestamps", "stamp", "stamps", "t", "ts", "clock"}
 """Words for times, behind which a unit of few letters is one."""
 
-MORE_TIMES = {"seconds", "epoch", "epoc", "elapsed", "sampletimefine", "tow"}
+MORE_TIMES = {"seconds", "epoch", "epoc", "elapsed", "sampletimefine", "tow"} | {
+    *("unixtime", "datetime", "timecode", "systime", "gpstime", "utctime"),
+}
 """Further ones: ``tow`` is the time of the week of satellites."""
 
 TICKS = {"millis": "ms", "micros": "us", "nanos": "ns", "cts": "ms"}
