@@ -40,6 +40,7 @@ MEANING = {
     "gyro_unit": "the rates are too large or too small by the factor of another unit: deg/s where "
     "rad/s is stated, or the other way round",
     "handled": "it moves in the first and the last seconds, as of a hand: these were left out",
+    "header_again": "the header stands again between rows, as where a log was begun anew: left out",
     "heading_against_field": "headings and magnetometer differ by this angle; both are used",
     "heading_late": "the headings were true so long before their rows, as the gyro shows; taken so",
     "heading_reading": "the headings do not turn as the gyro does: another unit, or another sense?",

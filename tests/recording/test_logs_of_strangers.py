@@ -7,6 +7,7 @@ import pytest
 from turned_logs import H, agrees, by_its_map, rows, turned, written
 
 from pyimu import inspect
+from pyimu.errors import UserError
 from pyimu.recording.formats.pairs import pairs_of
 from pyimu.recording.guess.numbers import warmth_unit
 from pyimu.recording.naming.name import named
@@ -139,3 +140,45 @@ def test_a_time_beyond_all_numbers_is_no_bug(log, tmp_path):
     time[30:] += 1e308
     lines = ["time_s,stamp_s,ax,ay,az,gx,gy,gz", *rows(time, time, log[2], log[1])]
     assert inspect(written(tmp_path / "log.csv", lines)).recording is None
+
+
+@pytest.mark.parametrize("by", [",", ";", "\t"])
+def test_a_header_that_stands_again_is_no_row(by, log, tmp_path):
+    """As loggers write it that are switched off and on: "'time' is not a number"."""
+    head = by.join(["time_s", "ax", "ay", "az", "gx", "gy", "gz"])
+    lines = [head, *rows(log[0], log[2], log[1], by=by)]
+    lines[501:501] = [head]
+    lines[1200:1200] = [head + " "]
+    found = by_its_map(written(tmp_path / "log.csv", lines), tmp_path)
+    assert [(f.count, f.detail) for f in found.findings if f.kind == "header_again"] == [
+        (2, {"first_row": 502})
+    ]
+    agrees(found, log)
+
+
+@pytest.mark.parametrize("code", ["utf-16-le", "utf-16-be"])
+def test_text_in_utf_16_without_its_mark(code, log, tmp_path):
+    """ "Its lines end with a carriage return alone" had been said of it."""
+    lines = ["time_s,ax,ay,az,gx,gy,gz\r", *(f"{r}\r" for r in rows(log[0], log[2], log[1]))]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines, code), tmp_path), log)
+
+
+def test_lines_that_end_with_a_carriage_return_alone_are_refused_as_such(log, tmp_path):
+    """A log longer than a line may be, too: "this is no table" had been said of it."""
+    text = "\r".join(["time_s,ax,ay,az,gx,gy,gz", *rows(*log) * 3])
+    with pytest.raises(UserError, match="carriage return alone"):
+        inspect(written(tmp_path / "log.csv", [text]))
+
+
+def test_a_labview_file_with_fewer_columns_than_units_is_no_bug(tmp_path):
+    """Found by the fuzzer: an IndexError."""
+    end = "***End_of_Header***"
+    head = [
+        "LabVIEW Measurement\t",
+        "Separator\tTab",
+        end,
+        "Y_Unit_Label\trad/s\trad/s\trad/s",
+        end,
+    ]
+    path = written(tmp_path / "log.lvm", [*head, "X_Value\tGyro_X", *["0.1\t0.2"] * 30])
+    assert inspect(path).recording is None

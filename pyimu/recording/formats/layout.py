@@ -22,7 +22,7 @@ from pyimu.recording.formats.cells import MISSING, is_number
 from pyimu.recording.formats.clock_times import is_clock_time
 from pyimu.recording.formats.headed import headed
 from pyimu.recording.formats.labelled import labelled
-from pyimu.recording.formats.lines import UTF_8, code_of, is_comment, lines
+from pyimu.recording.formats.lines import CARRIAGE, UTF_8, code_of, is_comment, lines
 from pyimu.recording.formats.marked import (
     GNSS_LOGGER,
     SHARE,
@@ -147,9 +147,7 @@ def layout_of(path: Path, topic: str = "") -> Layout:
     if not any(line.strip() for line in head):
         raise UserError(f"{path}: is empty")
     if any("\r" in line.rstrip("\r\n") for line in head[:1]):
-        raise UserError(
-            f"{path}: its lines end with a carriage return alone; have them end with a line feed"
-        )
+        raise UserError(f"{path}: {CARRIAGE}")
     if {"angular_velocity:", "linear_acceleration:"} <= {line.strip() for line in head}:
         raise UserError(f"{path}: is no table; {MESSAGES}")
     marked = _marked(head, path, topic)

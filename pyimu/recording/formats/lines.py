@@ -23,6 +23,8 @@ is none."""
 BLOCK = 1 << 20
 """Bytes that are read at once."""
 
+CARRIAGE = "its lines end with a carriage return alone; have them end with a line feed"
+
 COMMENTS = ("#", "//", "%", '"#')
 """What a line of comment begins with."""
 
@@ -46,6 +48,9 @@ of ``CODES``."""
 
 _BOMS = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
 """Marks at the start of texts in UTF-16."""
+
+PEEKED = 32
+"""Bytes that tell a text in UTF-16 without such a mark."""
 
 
 def is_gzip(path: Path) -> bool:
@@ -74,11 +79,26 @@ def opened(path: Path) -> Iterator[tuple[BinaryIO, BinaryIO]]:
 
 def _in_utf8(stream: io.BufferedReader) -> BinaryIO:
     """``stream``, and where it begins as UTF-16 does, its text in UTF-8."""
-    code = _BOMS.get(stream.peek(2)[:2])
+    head = stream.peek(PEEKED)[:PEEKED]
+    code = _BOMS.get(head[:2])
+    if code is not None:
+        stream.read(2)
+    else:
+        code = _unmarked(head)
     if code is None:
         return stream
-    stream.read(2)
     return io.BufferedReader(Recoded(stream, code), BLOCK)
+
+
+def _unmarked(head: bytes) -> str | None:
+    """The code of a text in UTF-16 that begins without its mark, as ASCII in two bytes each; None
+    of any other.
+    """
+    halves = head[0::2], head[1::2]
+    zero = [len(half) > 1 and not any(half) for half in halves]
+    if zero[0] == zero[1] or 0 in halves[zero[0]]:
+        return None
+    return "utf-16-be" if zero[0] else "utf-16-le"
 
 
 def code_of(path: Path) -> str:
@@ -122,6 +142,8 @@ def lines(path: Path) -> Iterator[str]:
         while line := stream.readline(LONGEST + 1):
             number += 1
             if len(line) > LONGEST:
+                if number == 1 and b"\r" in line:
+                    raise UserError(f"{path}: {CARRIAGE}")
                 raise UserError(
                     f"{path}: row {number} is longer than {LONGEST >> 10} KiB, this is no table"
                 )

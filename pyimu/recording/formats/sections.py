@@ -108,8 +108,8 @@ def _labview(rows: Sequence[str]) -> Sections | None:
     decimal = ",".join(said.get("Decimal_Separator", ["."])) or ","
     width = len(rows[ends[-1] + 2].split(separator))
     names = (rows[ends[-1] + 1].split(separator) + [""] * width)[:width]
-    for k, unit in enumerate(said.get("Y_Unit_Label", ()), 1):
-        names[k:] = [f"{names[k]} [{unit}]", *names[k + 1 :]] if unit_of(unit) else names[k:]
+    for k, unit in enumerate(said.get("Y_Unit_Label", ())[: width - 1], 1):
+        names[k] = f"{names[k]} [{unit}]" if unit_of(unit) else names[k]
     timed = said.get("X_Columns", ["One"])[0] != "No"
     if timed and set(said.get("X_Dimension", ["Time"])) == {"Time"}:
         names[0] = "Time [s]"

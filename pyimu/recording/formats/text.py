@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -44,6 +45,7 @@ class CsvReader(Reader):
     layout: Layout = field(default_factory=Layout)
     _ended: list[Finding] = field(default_factory=list, compare=False, repr=False)
     _broken: list[Finding] = field(default_factory=list, compare=False, repr=False)
+    _again: list[Finding] = field(default_factory=list, compare=False, repr=False)
 
     @classmethod
     def open(cls, path: Path, topic: str = "") -> CsvReader:
@@ -113,9 +115,9 @@ class CsvReader(Reader):
                     yield batch, share
                 return
             except (pa.ArrowException, OSError) as error:
-                known = len(self._broken)
+                known = len(self._broken + self._again)
                 end = self._explain(positions, done)
-                if cleaned and end == stop and known == len(self._broken):
+                if cleaned and end == stop and known == len(self._broken + self._again):
                     reason = (str(error).splitlines() or [type(error).__name__])[0]
                     raise UserError(f"{self.path}: cannot be read as CSV ({reason})") from None
             # A comment was between the rows, the first of this log, or a row was none, or its end.
@@ -149,7 +151,7 @@ class CsvReader(Reader):
         read = pacsv.ReadOptions(column_names=names, use_threads=False)
         size = max(self.path.stat().st_size, 1)
         with opened(self.path) as (stream, raw):
-            whole = self._is_row if self._broken else None
+            whole = self._is_row if self._broken or self._again else None
             marked = self.layout.marked
             rewrite = None if marked is None else marked.rewriter()
             blanks, comments = self.layout.separator == " ", not self._begin_so
@@ -174,7 +176,7 @@ class CsvReader(Reader):
 
     def at_end(self) -> tuple[Finding, ...]:
         """That the last lines were left out, and rows between whole ones."""
-        return (*self._broken, *self._ended)
+        return (*self._again, *self._broken, *self._ended)
 
     def count(self, long: int) -> None:
         return None
@@ -222,6 +224,8 @@ class CsvReader(Reader):
                     if row is None:
                         continue
                     line = row
+                if self._again and line.strip().encode() in self._heads:
+                    continue
                 if not self._broken or len(layout.cells(line)) == len(self.header):
                     yield began if several else number, line
                 began = 0
@@ -260,6 +264,10 @@ class CsvReader(Reader):
                     f"{self.path}: row {row}: {len(cells)} cells, expected {len(self.header)} as "
                     f"in {'the header' if self.layout.named else 'the others'}"
                 )
+            if not self._again and line.strip().encode() in self._heads:
+                count = sum(text.strip().encode() in self._heads for _, text in self._lines())
+                self._again[:] = [Finding("header_again", "", count, {"first_row": row})]
+                return None
             for position in positions:
                 if position in self.layout.clocks:
                     continue
@@ -285,8 +293,23 @@ class CsvReader(Reader):
         self._broken[:] = [Finding("rows_left_out", "", lengths[False], {"first_row": first})]
         return True
 
+    @cached_property
+    def _heads(self) -> set[bytes]:
+        """The lines above the numbers that have a cell for each column: a log that was begun anew
+        in the same file has them again.
+        """
+        above = islice(lines(self.path), self.layout.first - 1)
+        rows = [line.strip() for line in above if not is_comment(line)]
+        return {row.encode() for row in rows if len(self.layout.cells(row)) == len(self.header)}
+
     def _is_row(self, line: bytes) -> bool:
-        """Whether a line has a cell for each column; blank ones are the parser's to leave out."""
+        """Whether a line has a cell for each column and is not the header's again; blank ones are
+        the parser's to leave out.
+        """
+        if self._again and line.strip() in self._heads:
+            return False
+        if not self._broken:
+            return True
         separator, width = self.layout.separator.encode(), len(self.header)
         if b'"' in line:
             return len(self.layout.cells(line.decode("utf-8", "replace"))) == width
