@@ -112,7 +112,7 @@ class Outcome:
     def findings(self) -> tuple[Finding, ...]:
         """What reading the recording found, and what its samples show."""
         found = (*quality(self.recording), *self.of_part, *self.of_heading)
-        if not any(f.kind == "force_in_g" for f in found):
+        if not any(f.kind in ("force_in_g", "force_unit") for f in found):
             found += gravity_findings(self.rest)
         found = (
             *found,

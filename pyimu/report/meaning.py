@@ -23,6 +23,7 @@ MEANING = {
     "end_left_out": "lines at the end that are no whole rows, a cut one or a remark: left out",
     "even_turn": "what looks like a rest at the start was an even turn, or may be one",
     "filled_in": "rows on a smooth curve between others that scatter: no samples, and left out",
+    "force_unit": "gravity is too large by a unit's factor: m/s^2 or mg where g is stated, cm/s^2",
     "force_in_g": "gravity is 1 and should be 9.8: the numbers are in g, the header says m/s^2",
     "gaps": "rows are missing; nothing is filled in for them",
     "gravity_at_rest": "the positions at rest, and gravity there, by which the force was judged",

@@ -4,7 +4,7 @@ silence, or refused without the word that helps.
 
 import numpy as np
 import pytest
-from turned_logs import H, agrees, by_its_map, rows, turned, written
+from turned_logs import G, H, N, agrees, by_its_map, rows, turned, written
 
 from pyimu import inspect
 from pyimu.errors import UserError
@@ -182,3 +182,63 @@ def test_a_labview_file_with_fewer_columns_than_units_is_no_bug(tmp_path):
     ]
     path = written(tmp_path / "log.lvm", [*head, "X_Value\tGyro_X", *["0.1\t0.2"] * 30])
     assert inspect(path).recording is None
+
+
+@pytest.mark.parametrize(
+    "unit, factor, stated", [("g", 9.80665, "m/s^2"), ("g", 1000, "mg"), ("m/s^2", 100, "cm/s^2")]
+)
+def test_a_force_that_is_too_large_by_a_factor_of_units(unit, factor, stated, log, tmp_path):
+    """Under a header of g, m/s^2 had been read without a word: ten times the gravity."""
+    head = ",".join(["time [s]", *(f"gyro_{a} [rad/s]" for a in "xyz")])
+    head += "".join(f",accel_{a} [{unit}]" for a in "xyz")
+    force = factor * log[2] / (G if unit == "g" else 1.0)
+    found = inspect(written(tmp_path / "log.csv", [head, *rows(log[0], log[1], force)]))
+    told = [f.detail for f in found.findings if f.kind == "force_unit"]
+    assert [(d["stated"], d["as"]) for d in told] == [(unit, stated)]
+
+
+@pytest.mark.parametrize("name", ["sensor_id", "imu", "Device"])
+def test_rows_of_two_sensors_are_not_those_of_one(name, log, tmp_path):
+    """They had been read as one sensor of twice the rate whose stamps are coarse."""
+    head = f"time_s,{name},ax,ay,az,gx,gy,gz"
+    own, other = (rows(log[0], np.full(N, k), log[2] * (1 - k / 5), log[1]) for k in (0, 1))
+    lines = [line for pair in zip(own, other, strict=True) for line in pair]
+    found = by_its_map(written(tmp_path / "log.csv", [head, *lines]), tmp_path)
+    assert [f.count for f in found.findings if f.kind == "other_units"] == [N]
+    agrees(found, log)
+
+
+def test_a_state_of_the_sensor_does_not_number_it(log, tmp_path):
+    state = np.repeat([0, 1, 2, 3], N // 4)
+    lines = ["time_s,sensor,ax,ay,az,gx,gy,gz", *rows(log[0], state, log[2], log[1])]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines), tmp_path), log)
+
+
+def test_times_in_minutes(log, tmp_path):
+    """They had been taken for seconds, at 6 kHz."""
+    lines = ["Time (min),ax,ay,az,gx,gy,gz", *rows(log[0] / 60, log[2], log[1], form="{:.15g}")]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines), tmp_path), log)
+
+
+@pytest.mark.parametrize(
+    "head, first",
+    [
+        ("time ax ay az gx gy gz", [f'"{k}"' for k in range(1, N + 1)]),
+        ('"time" "ax" "ay" "az" "gx" "gy" "gz"', [f'"{k}"' for k in range(1, N + 1)]),
+        ("ax ay az gx gy gz", None),
+    ],
+)
+def test_names_that_begin_above_the_second_column(head, first, log, tmp_path):
+    """As R writes them: each name had been taken for that of the column before its own."""
+    lines = rows(log[0], log[2], log[1], by=" ")
+    if first is not None:
+        lines = [f"{k} {line}" for k, line in zip(first, lines, strict=True)]
+    agrees(by_its_map(written(tmp_path / "log.txt", [head, *lines]), tmp_path), log)
+
+
+def test_axes_that_go_on_in_a_header(log, tmp_path):
+    lines = ["Time (s),Acc X,Y,Z,Gyro X,Y,Z", *rows(log[0], log[2], log[1])]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines), tmp_path), log)
+    lines = ["Time (s),X,Y,Z", *rows(log[0], log[1])]
+    found = inspect(written(tmp_path / "gyro.csv", lines))
+    assert [g.cell for g in found.proposals[0].guesses] == ["Time (s)", "X", "Y", "Z"]

@@ -14,7 +14,7 @@ from pyimu.report.numbers import joined, number
 TIMES = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (0.0, "s"))
 """Seconds of the units of time, the largest first."""
 
-OF_UNITS = ("gyro_at_rest", "gyro_noisy", "gyro_fast", "force_in_g", "unlikely_rate")
+OF_UNITS = ("gyro_at_rest", "gyro_noisy", "gyro_fast", "force_in_g", "force_unit", "unlikely_rate")
 """Kinds of findings that say that a column, or the times, may be in another unit than is stated."""
 
 FAULTS = {

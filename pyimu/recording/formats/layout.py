@@ -33,6 +33,7 @@ from pyimu.recording.formats.marked import (
 )
 from pyimu.recording.formats.novatel import novatel
 from pyimu.recording.formats.optical import optical
+from pyimu.recording.formats.over_columns import is_behind, with_axes
 from pyimu.recording.formats.rate_line import rate_in
 from pyimu.recording.formats.sections import Sections, rate_of_devices, sections
 from pyimu.recording.formats.thousands import without_marks
@@ -286,6 +287,7 @@ def told_from(head: Sequence[str]) -> Layout:
     whole = [c for _, c in cells[start:] if len(c) == width]
     empty = _empty(whole, width)
     named = [_over(row, width, empty) for row in named]
+    named = [["", *row] if is_behind(row, whole, form.decimal) else row for row in named]
     names = _names(named, width, empty) or names_of(whole, form.separator)
     notes = [line for k, line in numbered if is_comment(line) or k < first]
     rate = next((hertz for line in notes[:HEAD] if (hertz := rate_in(line))), None)
@@ -405,7 +407,7 @@ def _names(rows: Sequence[Sequence[str]], width: int, empty: Sequence[int] = ())
             f"{name} [{_unit(unit)}]" if unit and "[" not in name else name
             for name, unit in zip(names, units, strict=True)
         ]
-    names = _nested(names, rows[-1] if rows else [], empty)
+    names = with_axes(_nested(names, rows[-1] if rows else [], empty))
     return tuple(_apart(name, k, names) for k, name in enumerate(names))
 
 

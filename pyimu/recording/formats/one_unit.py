@@ -9,6 +9,7 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.recording.formats.reader import Columns, Reader, ReaderOver
+from pyimu.recording.naming.name import named
 
 NUMBERED: tuple[tuple[str, frozenset[str]], ...] = (
     ("I", frozenset(("TimeUS", "GyrX", "GyrY", "GyrZ", "AccX", "AccY", "AccZ"))),
@@ -16,6 +17,15 @@ NUMBERED: tuple[tuple[str, frozenset[str]], ...] = (
 )
 """Columns that number the units in tables of ArduPilot's IMU and MAVLink's HIGHRES_IMU, and what is
 beside them there."""
+
+NUMBERS = tuple((word,) for word in ("id", "sensor", "imu", "device", "node", "unit", "instance"))
+"""Last words of the names of columns that may number the units in any other table."""
+
+MOST_UNITS = 16
+"""Units whose samples stand in one table, at most."""
+
+EVEN = 0.5
+"""Share of its part of the rows that each unit has at least."""
 
 
 @dataclass(frozen=True)
@@ -59,11 +69,28 @@ class OneUnitReader(ReaderOver):
 def with_one_unit(reader: Reader) -> Reader:
     """``reader`` with the samples of the first of its units, where a table has those of several."""
     names = set(reader.header)
-    cell = next((cell for cell, beside in NUMBERED if {cell, *beside} <= names), None)
-    at = -1 if cell is None else reader.header.index(cell)
-    if at not in reader.numeric():
+    known = [cell for cell, beside in NUMBERED if {cell, *beside} <= names]
+    told = known or [cell for cell in reader.header if _is_number_of_unit(cell)]
+    if not told or reader.header.index(told[0]) not in reader.numeric():
         return reader
+    at = reader.header.index(told[0])
     columns, _ = next(reader.batches([at], at), ([np.zeros(0)], 1.0))
-    numbers = np.unique(columns[0])
+    numbers, counts = np.unique(columns[0], return_counts=True)
     several = len(numbers) > 1 and np.array_equal(numbers, np.round(numbers))
-    return OneUnitReader(reader, at, int(columns[0][0])) if several else reader
+    if not several or not (known or _come_in_turn(columns[0], counts)):
+        return reader
+    return OneUnitReader(reader, at, int(columns[0][0]))
+
+
+def _is_number_of_unit(cell: str) -> bool:
+    """Whether a column is called as one that numbers sensors is: ``sensor_id``, ``Device``."""
+    name = named(cell)
+    return name.words[-1:] in NUMBERS and not name.axis and not name.unit
+
+
+def _come_in_turn(numbers: np.ndarray, counts: np.ndarray) -> bool:
+    """Whether rows of few units alternate; those of a state stay for long, and a counter's are
+    many.
+    """
+    even = len(counts) <= MOST_UNITS and counts.min() * len(counts) > EVEN * counts.sum()
+    return bool(even and np.mean(np.diff(numbers) != 0) > EVEN / MOST_UNITS)

@@ -10,7 +10,7 @@ from pyimu.recording.counter import Unwrapped
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.first_rows import Numbers
 from pyimu.recording.guess.guessed import Guess, Proposal
-from pyimu.recording.guess.numbers import SECONDS, UnitGuess, time_unit
+from pyimu.recording.guess.numbers import SECONDS, STATED, UnitGuess, time_unit
 from pyimu.recording.naming.name import Name, named
 from pyimu.recording.naming.words import COUNTERS, TRUTHS
 
@@ -51,7 +51,7 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
         if other != k:
             found.notes.append(f"{reader.header[other]} may be the time, too ({its.why})")
     found.add([Guess(reader.header[k], "time", guess.unit, guess.why, guess.value)])
-    one = SECONDS.get(guess.unit or "", 0.0) * (guess.value or 1.0)
+    one = STATED.get(guess.unit or "", 0.0) * (guess.value or 1.0)
     if not rises(values):  # whole seconds, say, which reading divides among their rows
         period = one / (_mean_rate(values) or 1.0)
     else:
@@ -94,9 +94,9 @@ def _unevenness(values: np.ndarray) -> float:
 def _time_guess(name: Name, values: np.ndarray) -> UnitGuess:
     """The stated unit, but where its rate is none that a sensor has."""
     seen = time_unit(values)
-    if name.clock not in SECONDS:
+    if name.clock not in STATED:
         return seen
-    rate = 1 / (_period(values) * SECONDS[name.clock])
+    rate = 1 / (_period(values) * STATED[name.clock])
     if 1e-3 <= rate <= 1e6:
         return UnitGuess(name.clock, f"the header says {name.said}; {rate:.5g} Hz")
     return replace(seen, why=f"{seen.why} (the header says {name.said}: {rate:.3g} Hz)")

@@ -12,6 +12,9 @@ from pyimu.units import STANDARD_GRAVITY, parse
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "day": 86400.0}
 """Units in which clocks count, and the serial dates of spreadsheets."""
 
+STATED = SECONDS | {"min": 60.0, "h": 3600.0}
+"""And in which they may as well, where the header says so."""
+
 USUAL = (8.0, 8000.0)
 """Hz; three decades, within which most inertial sensors are sampled: of units a factor of 1000
 apart one fits where a clock is off by far."""

@@ -16,6 +16,7 @@ from pyimu.recording.guess.first_rows import Numbers
 from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.numbers import (
     SECONDS,
+    STATED,
     UnitGuess,
     angle_of_rate,
     counts,
@@ -64,10 +65,10 @@ def forces(reader: Reader, found: Proposal) -> Beside | None:
 def _seconds(found: Proposal, numbers: Numbers) -> np.ndarray | None:
     """The times (n,) s of a file by what was ``found`` of it, None where they are not known."""
     own = next((g for g in found.guesses if g.target == "time"), None)
-    if own is None or own.unit not in SECONDS:
+    if own is None or own.unit not in STATED:
         return None
     values = Unwrapped(*SECONDS.values()).add(numbers.of([found.header.index(own.cell)]))
-    return values.astype(float) * SECONDS[own.unit] * (own.value or 1.0)
+    return values.astype(float) * STATED[own.unit] * (own.value or 1.0)
 
 
 def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = None) -> Proposal:

@@ -16,7 +16,14 @@ WINDOW_ROWS = 1 << 18
 """Samples of a window. Rare things need many samples to stand out from; a window takes some tens of
 MB and a third of a second."""
 
-OF_MOST = ("gravity_down", "force_in_g", "gyro_at_rest", "gyro_noisy", "temperature_unit")
+OF_MOST = (
+    "gravity_down",
+    "force_in_g",
+    "force_unit",
+    "gyro_at_rest",
+    "gyro_noisy",
+    "temperature_unit",
+)
 """Kinds that concern the log as a whole."""
 
 

@@ -30,6 +30,14 @@ automotive parts, AEC-Q100)."""
 NO_GRAVITY = "no_gravity"
 """The finding of forces without gravity."""
 
+TOO_LARGE = {
+    STANDARD_GRAVITY: ("g", "m/s^2"),
+    100.0: ("m/s^2", "cm/s^2"),
+    1000.0: ("g", "mg"),
+}
+"""Times gravity that forces show whose header says the first unit, and whose numbers are in the
+second."""
+
 WEIGHTLESS = 0.08
 """Of the Earth's gravity; the Moon's is 0.165, and a gravity of 1, of a log in g, is 0.102."""
 
@@ -64,8 +72,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
 
     ``zeroed``, ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``,
     ``held_samples``, ``spikes``, ``quantization_step`` for each column; ``jitter``,
-    ``gravity_down``, ``force_in_g``, ``no_gravity``, ``gyro_fast``, ``gyro_at_rest``,
-    ``gyro_noisy`` and ``temperature_unit`` for the recording.
+    ``gravity_down``, ``force_in_g``, ``force_unit``, ``no_gravity``, ``gyro_fast``,
+    ``gyro_at_rest``, ``gyro_noisy`` and ``temperature_unit`` for the recording.
     """
     names, values = _channels(recording)
     zeroed = _zeroed(recording)
@@ -77,7 +85,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
     ]
     quiet = np.zeros((0, 3)) if recording.accel is None else _quietest(recording)
     force = np.median(quiet, axis=0) if len(quiet) else None
-    of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_no_gravity(quiet))
+    of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_force_unit(quiet))
+    of_gravity += tuple(_no_gravity(quiet))
     warmth = _other_temperature(recording)
     sizes = (*_too_fast(recording), *_at_rest(recording), *of_gravity, *warmth)
     return (*zeroed, *columns, *_spikes(recording), *_jitter(recording), *sizes)
@@ -251,6 +260,17 @@ def _force_in_g(rest: np.ndarray | None) -> Iterator[Finding]:
     if _is_gravity(rest, 1.0):
         detail = {"magnitude": float(np.linalg.norm(rest)), "stated": "m/s^2", "as": "g"}
         yield Finding("force_in_g", "accel", 1, detail)
+
+
+def _force_unit(quiet: np.ndarray) -> Iterator[Finding]:
+    """A gravity in forces (k, 3), whichever way up each is, that is too large by the factor between
+    two units.
+    """
+    size = float(np.median(np.linalg.norm(quiet, axis=1))) if len(quiet) else 0.0
+    for factor, (stated, right) in TOO_LARGE.items():
+        if abs(size / factor / STANDARD_GRAVITY - 1) < 0.1:
+            detail = {"magnitude": size, "stated": stated, "as": right}
+            yield Finding("force_unit", "accel", 1, detail)
 
 
 def _no_gravity(quiet: np.ndarray) -> Iterator[Finding]:
