@@ -22,6 +22,7 @@ from pyimu.identification.search.passing import passing
 from pyimu.identification.search.reference_line import is_line_of_reference
 from pyimu.identification.search.rounded import OF_DIGITS, within_digits
 from pyimu.identification.search.screen import fitted_gain, is_slow, keys_of
+from pyimu.identification.search.unseen_instants import with_unseen_instants
 from pyimu.model.catalogue import CATALOGUE
 
 OF_REFERENCE = "is the reference's noise: the sensor's own signal does not show it"
@@ -61,7 +62,8 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
             tried.denied.append((chosen, "whose size is beyond belief"))
         if reason or beyond:
             return chosen, reason or beyond
-    chosen, seen = _confirmed(old, chosen, held)
+    fitted = with_unseen_instants(old, chosen.fit, chosen.screened.effect, held)
+    chosen, seen = _confirmed(old, replace(chosen, fit=fitted), held)
     reason = _against(chosen, seen, gate)
     if not reason:
         return chosen, _stands_in(tried, chosen, gate)
