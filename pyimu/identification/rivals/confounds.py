@@ -17,7 +17,17 @@ def what_no_log_tells_apart(
     """The note that goes with an effect of a sensor wherever it is named, if it has one."""
     trials = list(trials)
     own = _own_confound(e, sensor, trials, alternatives)
-    return "; ".join(filter(None, (own, _of_places(e, trials))))
+    return "; ".join(filter(None, (own, _of_places(e, trials), _of_heading(e, trials))))
+
+
+def _of_heading(e: Effect, trials: Iterable[Trial]) -> str:
+    """Of the scale of a gyro beside headings alone, which wheels may have counted."""
+    if e.name != "scale_factor" or {t.reference for t in trials} != {"heading"}:
+        return ""
+    return (
+        "a heading that was counted from wheels has the error of their track width as a scale of "
+        "its own; turns by whole revolutions, back to a mark, would tell"
+    )
 
 
 def _of_places(e: Effect, trials: Iterable[Trial]) -> str:
