@@ -12,6 +12,7 @@ import contextlib
 import ctypes
 import os
 import platform
+import re
 import shlex
 import shutil
 import subprocess
@@ -63,6 +64,9 @@ COMPILED_SOON = ("-O2", "-fno-tree-pre", "-fno-code-hoisting", "-fno-gcse")
 40,000 operations, where casadi left nothing to find: 18 s became 6, a sample takes 3 to 15 % more.
 """
 
+OLDEST = 7
+"""Version of gcc that has all of these options."""
+
 OWN = "-march=native"
 """Compiles for this very processor. What it has beside the least of its kind does the same
 arithmetic in fewer instructions, and the bits are the same."""
@@ -111,8 +115,14 @@ def compiler_command() -> list[str]:
 def flags(compiler: list[str]) -> list[str]:
     """The flags for a library that only this machine will use."""
     known = _processor(tuple(compiler))
-    gcc = "#define __GNUC__" in known and "#define __clang__" not in known
-    return [*FLAGS, *COMPILED_SOON * gcc, *[OWN] * bool(known)]
+    soon = COMPILED_SOON * (_version_of_gcc(known) >= OLDEST)
+    return [*FLAGS, *soon, *[OWN] * bool(known)]
+
+
+def _version_of_gcc(known: str) -> int:
+    """The number by what a compiler knows, zero of one that only says that it is like gcc."""
+    found = re.search(r"^#define __GNUC__ (\d+)$", known, re.MULTILINE)
+    return 0 if found is None or "#define __clang__" in known else int(found[1])
 
 
 @cache

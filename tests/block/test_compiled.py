@@ -458,3 +458,20 @@ def test_a_step_taken_often_is_compiled_and_gives_the_bits_of_the_virtual_machin
     np.testing.assert_array_equal(found, want)
     assert ends[0] == ends[1]
     assert len(compilations) == 1
+
+
+@pytest.mark.parametrize(
+    "says, quick",
+    [
+        ("#define __GNUC__ 12\n#define __AVX2__ 1\n", True),
+        ("#define __GNUC__ 4\n#define __clang__ 1\n", False),
+        ("#define __clang__ 1\n#define __GNUC__ 12\n", False),
+        ("#define __GNUC__ 6\n", False),
+        ("", False),
+    ],
+)
+def test_only_a_gcc_that_knows_them_is_given_gccs_options(monkeypatch, says, quick):
+    monkeypatch.setattr(native, "_processor", lambda compiler: says)
+    given = native.flags(["cc"])
+    assert (set(native.COMPILED_SOON) <= set(given)) == quick
+    assert (native.OWN in given) == bool(says)
