@@ -17,6 +17,9 @@ BLOCKS = (0.04, 0.1, 0.2, 0.5, 1.0)
 """s; over so long means the turning of gravity is compared with the rate: fast turns need short
 ones, slow turns long ones, and of all that counts in which the two agree best."""
 
+PIECE = 1 << 15
+"""Rows that are turned at once: their matrices take nine times the room of a column."""
+
 TRIES = 8
 """Steps of Newton's method to the scale of a gyro, at most."""
 
@@ -88,8 +91,19 @@ def _apart(
     """By how much the mean force (m, 3) of a block and that of the block before it differ, in the
     axes that the body has between the two.
     """
-    count = min(len(rate), len(force)) // length
-    w, f = (v[: count * length].reshape(count, length, 3) for v in (rate, force))
+    count, few = min(len(rate), len(force)) // length, max(PIECE // length, 1)
+    pieces = [slice(k * length, min(k + few, count) * length) for k in range(0, count, few)]
+    means = [_means(rate[at], force[at], length, period, scale) for at in pieces]
+    at_start, at_end = (np.concatenate(each) for each in zip(*means, strict=True))
+    return at_start[1:] - at_end[:-1]
+
+
+def _means(
+    rate: np.ndarray, force: np.ndarray, length: int, period: float, scale: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """The mean force (m, 3) of each block, in the axes of its start, and in those of its end."""
+    count = len(rate) // length
+    w, f = (v.reshape(count, length, 3) for v in (rate, force))
     turn = Rotation.from_rotvec(0.5 * scale * period * np.nan_to_num(w).reshape(-1, 3))
     halves = turn.as_matrix().reshape(count, length, 3, 3)
     whole, at_start = np.broadcast_to(np.eye(3), (count, 3, 3)), np.zeros((count, 3))
@@ -97,5 +111,4 @@ def _apart(
         middle = whole @ halves[:, k]
         at_start = at_start + np.einsum("nij,nj->ni", middle, f[:, k]) / length
         whole = middle @ halves[:, k]
-    at_end = np.einsum("nji,nj->ni", whole, at_start)
-    return at_start[1:] - at_end[:-1]
+    return at_start, np.einsum("nji,nj->ni", whole, at_start)
