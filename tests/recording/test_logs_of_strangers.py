@@ -2,6 +2,8 @@
 silence, or refused without the word that helps.
 """
 
+import gzip
+
 import numpy as np
 import pytest
 from turned_logs import G, H, N, agrees, by_its_map, rows, turned, written
@@ -242,3 +244,25 @@ def test_axes_that_go_on_in_a_header(log, tmp_path):
     lines = ["Time (s),X,Y,Z", *rows(log[0], log[1])]
     found = inspect(written(tmp_path / "gyro.csv", lines))
     assert [g.cell for g in found.proposals[0].guesses] == ["Time (s)", "X", "Y", "Z"]
+
+
+def test_a_packed_text_needs_no_name_of_one(log, tmp_path):
+    lines = ["time_s,ax,ay,az,gx,gy,gz", *rows(log[0], log[2], log[1])]
+    path = written(tmp_path / "log.csv", lines)
+    path.write_bytes(gzip.compress(path.read_bytes()))
+    agrees(by_its_map(path, tmp_path), log)
+
+
+@pytest.mark.parametrize(
+    "sign, said",
+    [
+        (b"PK\x03\x04", "save its sheet as CSV"),
+        (b"SQLite format 3\0", "database"),
+        (b"\x89HDF\r\n", "end in .h5"),
+    ],
+)
+def test_what_is_no_text_is_called_what_it_is(sign, said, tmp_path):
+    """ "Save text in another code as UTF-8" had been said of it."""
+    (tmp_path / "log.csv").write_bytes(sign + bytes(range(256)) * 40)
+    with pytest.raises(UserError, match=said):
+        inspect(tmp_path / "log.csv")

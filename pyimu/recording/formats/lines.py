@@ -25,6 +25,20 @@ BLOCK = 1 << 20
 
 CARRIAGE = "its lines end with a carriage return alone; have them end with a line feed"
 
+SIGNS = {
+    b"PK\x03\x04": "is a ZIP archive or a workbook; unpack it, or save its sheet as CSV",
+    b"\xd0\xcf\x11\xe0": "is a workbook of Excel; save its sheet as CSV",
+    b"SQLite format 3": "is a database of SQLite; save its table as CSV, or call a bag .db3",
+    b"\x89HDF": "is HDF5; its name must end in .h5 then, or .mat",
+    b"MATLAB 5.0": "is a MAT file; its name must end in .mat then",
+    b"PAR1": "is Parquet; its name must end in .parquet then",
+    b"\x93NUMPY": "is an array of NumPy; its name must end in .npy then",
+    b"ULog": "is a log of PX4; its name must end in .ulg then",
+}
+"""How other files begin, and what is to be done with one that is called as a text."""
+
+LONGEST_SIGN = max(map(len, SIGNS))
+
 COMMENTS = ("#", "//", "%", '"#')
 """What a line of comment begins with."""
 
@@ -54,7 +68,24 @@ PEEKED = 32
 
 
 def is_gzip(path: Path) -> bool:
-    return path.name.lower().endswith(".gz")
+    """Whether a file is packed, whatever its name says."""
+    return path.name.lower().endswith(".gz") or _first_bytes(path)[:2] == b"\x1f\x8b"
+
+
+def _first_bytes(path: Path) -> bytes:
+    """The first bytes of a regular file, none of one that cannot be read."""
+    try:
+        with path.open("rb") as raw:
+            return raw.read(LONGEST_SIGN) if path.is_file() else b""
+    except OSError:
+        return b""
+
+
+def _is_no_text(path: Path, why: str) -> UserError:
+    """What is said of a file that is no text: what it is, where its first bytes tell, else why."""
+    first = _first_bytes(path)
+    does = next((does for sign, does in SIGNS.items() if first.startswith(sign)), why)
+    return UserError(f"{path}: {does}")
 
 
 @contextmanager
@@ -143,9 +174,9 @@ def lines(path: Path) -> Iterator[str]:
             number += 1
             if len(line) > LONGEST:
                 if number == 1 and b"\r" in line:
-                    raise UserError(f"{path}: {CARRIAGE}")
-                raise UserError(
-                    f"{path}: row {number} is longer than {LONGEST >> 10} KiB, this is no table"
+                    raise _is_no_text(path, CARRIAGE)
+                raise _is_no_text(
+                    path, f"row {number} is longer than {LONGEST >> 10} KiB, this is no table"
                 )
             text = _in_utf_8(line, number == 1)
             if text is None:
@@ -153,9 +184,10 @@ def lines(path: Path) -> Iterator[str]:
                     code, looked = _told_code(path), True
                 text = _decoded(line, code)
             if text is None:
-                raise UserError(
-                    f"{path}: is not text in {UTF_8}, {UTF_16}, {WESTERN} or {CHINESE}; save text "
-                    f"in another code as {UTF_8}"
+                raise _is_no_text(
+                    path,
+                    f"is not text in {UTF_8}, {UTF_16}, {WESTERN} or {CHINESE}; save text in "
+                    f"another code as {UTF_8}",
                 )
             yield text
 
