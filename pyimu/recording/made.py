@@ -1,5 +1,5 @@
 """Columns that are made of a file's own: one time of two, a force of its two parts, an attitude of
-a rotation matrix.
+a rotation matrix, numbers with a sign of words without one.
 """
 
 from __future__ import annotations
@@ -9,9 +9,11 @@ from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.formats.matrix_attitude import with_attitude
 from pyimu.recording.formats.one_unit import with_one_unit
 from pyimu.recording.formats.reader import Reader
+from pyimu.recording.formats.signed import with_signs
 from pyimu.recording.formats.split_time import with_one_time
 
 
 def with_made_columns(reader: Reader, foreign: ForeignMap) -> tuple[Reader, ForeignMap]:
     """``reader`` with the columns that are made of others, and the map with the time among them."""
-    return with_one_time(with_attitude(with_whole_force(with_one_unit(reader))), foreign)
+    own = with_signs(with_one_unit(reader))
+    return with_one_time(with_attitude(with_whole_force(own)), foreign)

@@ -266,3 +266,21 @@ def test_what_is_no_text_is_called_what_it_is(sign, said, tmp_path):
     (tmp_path / "log.csv").write_bytes(sign + bytes(range(256)) * 40)
     with pytest.raises(UserError, match=said):
         inspect(tmp_path / "log.csv")
+
+
+def test_counts_that_lost_their_sign(log, tmp_path):
+    """-1 as 65535: the accelerometer had been read in a wrong size, the gyro not at all."""
+    counts = np.hstack([log[2] / G * 16384, np.degrees(log[1]) * 131]).round().astype(int)
+    lines = ["ms,ax,ay,az,gx,gy,gz", *rows(1000 * log[0], counts & 0xFFFF)]
+    found = by_its_map(written(tmp_path / "log.csv", lines), tmp_path)
+    (said,) = [f.detail["columns"] for f in found.findings if f.kind == "sign_lost"]
+    assert said == "ax, ay, az, gx, gy, gz"
+    agrees(found, log, gyro=1e-3, accel=2e-3)
+
+
+def test_a_counter_of_16_bits_has_no_sign(log, tmp_path):
+    ticks = (np.rint(1000 * log[0]).astype(int) + 60_000) % 65_536
+    middle = np.rint(log[2] / G * 4096).astype(int) + 32_768
+    lines = ["ms,x_raw,y_raw,z_raw,gx,gy,gz", *rows(ticks, middle, log[1])]
+    found = inspect(written(tmp_path / "log.csv", lines))
+    assert "sign_lost" not in {f.kind for f in found.findings}
