@@ -116,7 +116,7 @@ MEANING = {
     "rows_left_out": "rows of another length, as of a line that lost letters: they were left out",
     "shakes_at_rest": "an engine shakes it at rest: rests were told by its motion without that",
     "shocks": "seconds in which several axes shake at once, as of a knock: they were left out",
-    "sign_lost": "whole numbers of 16 bits that jump across zero, -1 as 65535: read with their sign",
+    "sign_lost": "numbers of 16 bits that jump across zero, -1 as 65535: read with their sign",
     "speed_axis": "the forces say that the body does not drive along x: the speed was not used",
     "speed_sign": "the forces contradict the speed's sign: it was not used",
     "speed_unit": "the forces say that the speed is of another unit: it was not used",
