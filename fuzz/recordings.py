@@ -76,6 +76,10 @@ ROWS = 80
 
 TEXTS = (".csv", ".txt", ".log", ".toml", ".dat", ".yaml")
 
+ARRAYS = (*log_arrays.ARRAYS, *log_arrays.JSONS)
+GUESSED = tuple(f"{make.__name__}-" for make in ARRAYS if make not in log_arrays.ALONE)
+"""How the names of files begin that are read by the map alone that their numbers tell."""
+
 MAPPED = "mapped-"
 """How the names of folders begin that hold a log and its column map."""
 
@@ -98,7 +102,7 @@ def seeds(folder: Path) -> None:
         make(_mapped(folder, make.__name__), still)
     for kind in ("mat", "mat73", "hdf5"):
         log_files.written(_mapped(folder, kind), kind, log)
-    for make in (*log_arrays.ARRAYS, *log_arrays.JSONS):
+    for make in ARRAYS:
         of_turned = [part[:ROWS] for part in turned_logs.turned()]
         _take(folder, make.__name__, lambda place, make=make: make(place, of_turned))
     (folder / "map.toml").write_text(log_files.MAP)

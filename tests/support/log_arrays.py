@@ -91,3 +91,5 @@ def texts(folder, log):
 
 ARRAYS = (table, samples_along_rows, records, arrays, arrays_with_dates, named_columns)
 JSONS = (edge_impulse, frame_split, frame_of_columns, names_first, within_an_object, texts)
+ALONE = (named_columns, edge_impulse)
+"""Those that are read as they are; the others need a map of their own."""
