@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 
 import pyimu
-from pyimu.ins.detector import WINDOW, Noise, magnitude, ratio, variance
+from pyimu.ins.detector import WINDOW, magnitude, ratio, variance
+from pyimu.ins.noise import Noise
 from pyimu.rover.trajectory import square
 
 PART = Path(__file__).parents[1] / "examples" / "sparkfun6dof_assumed.toml"

@@ -21,7 +21,8 @@ import numpy as np
 from numba import njit
 from scipy.spatial.transform import Rotation
 
-from pyimu.ins.detector import FORCE_KEPT, Noise
+from pyimu.ins.detector import kept_for
+from pyimu.ins.noise import Noise
 from pyimu.ins.pushes import FORCE_STAYS
 from pyimu.units import STANDARD_GRAVITY
 
@@ -100,7 +101,7 @@ def change_of_velocity(
     velocity = velocity - _by_errors(gain @ off, turns, rates, force, share, period)
     spread = float(np.linalg.eigvalsh(last @ known @ last.T).max())
     spread += _left(noise, of_ends, velocity, rates, period)
-    apart = float(off @ np.linalg.solve(own + FORCE_KEPT**2 * np.eye(3), off))
+    apart = float(off @ np.linalg.solve(own + kept_for(n * period) ** 2 * np.eye(3), off))
     most = float(np.linalg.norm(velocity, axis=1).max())
     angle = float(Rotation.from_matrix(turns[-1]).magnitude())
     return Change(velocity[-1], spread, turns[-1], angle, apart, most)

@@ -16,7 +16,8 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from scipy.spatial.transform import Rotation
 
-from pyimu.ins.pushes import MOMENT, STEADY_GATE, unpushed
+from pyimu.ins.noise import LEAST_ROWS, Noise
+from pyimu.ins.pushes import FOLLOWED, FORCE_STAYS, MOMENT, STEADY_GATE, unpushed
 from pyimu.ins.short_rests import between_swings
 from pyimu.numerics.laws import chi2
 from pyimu.recording.clock import runs
@@ -24,9 +25,6 @@ from pyimu.units import STANDARD_GRAVITY
 
 WINDOW = 0.3
 """s; of a test. Shorter than a stop, longer than the period of what shakes a small robot."""
-
-LEAST_ROWS = 5
-"""Samples of a window at least: two of a slow log are alike by chance in the middle of a drive."""
 
 FALSE_ALARM = 1e-6
 """Probability that a window at rest is taken for one in motion, by chance."""
@@ -42,29 +40,6 @@ percent."""
 
 MOST_TURN = 2.0
 """rad; a body that has turned further since it rested may show any force."""
-
-
-@dataclass(frozen=True)
-class Noise:
-    """Standard deviations (3,) of a sample at rest, ``rate`` in rad/s and ``force`` in m/s^2;
-    ``walk`` (3,) rad/s/sqrt(s) by which the gyro's bias walks; ``bias`` (3,) rad/s at the start.
-    ``shown`` says that a part or a rest tells them: what a motion shows is no measure of rest.
-    """
-
-    rate: np.ndarray
-    force: np.ndarray
-    walk: np.ndarray
-    bias: np.ndarray
-    shown: bool = True
-
-    def of_mean(self, rows: int, period: float) -> np.ndarray:
-        """Variance (3,) of a mean rate over so many ``rows`` beside the bias at either end."""
-        return self.rate**2 / rows + self.walk**2 * rows * period / 3
-
-    def longest_mean(self, period: float) -> int:
-        """Over how many rows a mean tells the bias at their end best: more only wander."""
-        best = np.sqrt(3 / period) * self.rate / np.fmax(self.walk, 1e-12)
-        return max(LEAST_ROWS, round(float(np.min(best))))
 
 
 def ratio(gyro: np.ndarray, accel: np.ndarray, noise: Noise, rows: int) -> np.ndarray:
@@ -175,22 +150,27 @@ def detect(
                 continue
             still[start:stop] = False
             steady.append((start, stop))
-        elif before is not None and _is_pushed(
-            force - before.as_turned(gyro[before.stop : start] - bias, period),
+            continue
+        as_before = True
+        if before is not None:
+            rates = gyro[before.stop : start] - bias
+            off = force - before.as_turned(rates, period)
             # White noise, the bias, and its walk, each integrated.
-            tilt=noise.rate**2 * period * away
-            + variance_of_bias * away**2
-            + noise.walk**2 * away**3 / 3,
-            white=noise.force**2 * (1 / (stop - start) + 1 / before.rows),
-            turned=way_of(gyro[before.stop : start] - bias, rows, period),
-        ):
-            still[start:stop] = False
-        else:
-            known = variance_of_bias + noise.walk**2 * away
-            bias, variance_of_bias = _followed(bias, known, gyro[start:stop], noise, period)
-            at = float(time[stop - 1])
-            if before is None or (stop - start) * period > MOMENT:
-                before = _Rest(force, stop - start, stop)
+            tilt = noise.rate**2 * period * away + variance_of_bias * away**2
+            tilt = STANDARD_GRAVITY**2 * (tilt + noise.walk**2 * away**3 / 3)
+            white = noise.force**2 * (1 / (stop - start) + 1 / before.rows)
+            turned = way_of(rates, rows, period)
+            spread = float(np.mean(tilt + white)) + (FORCE_TURNED * turned) ** 2
+            if turned <= MOST_TURN and _is_pushed(off, spread + FORCE_KEPT**2):
+                still[start:stop] = False
+                continue
+            as_before = turned > MOST_TURN or not _is_pushed(off, spread + kept_for(away) ** 2)
+        known = variance_of_bias + noise.walk**2 * away
+        bias, variance_of_bias = _followed(bias, known, gyro[start:stop], noise, period)
+        at = float(time[stop - 1])
+        # What is pushed evenly does not tell the force of what comes later.
+        if before is None or (as_before and (stop - start) * period > MOMENT):
+            before = _Rest(force, stop - start, stop)
     return Detected(still, float(np.mean(passed)), tuple(_joined(steady)))
 
 
@@ -297,12 +277,11 @@ def way_of(rates: np.ndarray, rows: int, period: float) -> float:
     return way if np.isfinite(way) else np.inf
 
 
-def _is_pushed(off: np.ndarray, tilt: np.ndarray, white: np.ndarray, turned: float) -> bool:
-    """Whether a mean force is ``off`` (3,) m/s^2 by more than explains the ``tilt`` (3,) rad^2 that
-    the gyro's errors leave, the ``white`` noise (3,) of both means and what turns.
-    """
-    if turned > MOST_TURN:
-        return False
-    unknown = FORCE_KEPT**2 + (FORCE_TURNED * turned) ** 2
-    spread = STANDARD_GRAVITY**2 * float(np.mean(tilt)) + float(np.mean(white)) + unknown
+def _is_pushed(off: np.ndarray, spread: float) -> bool:
+    """Whether a mean force is ``off`` (3,) m/s^2 by more than its variance ``spread`` explains."""
     return float(np.sum(off**2)) > (STEADY_GATE + 3) * spread
+
+
+def kept_for(seconds: float) -> float:
+    """m/s^2; standard deviation by which an accelerometer's error may have changed since."""
+    return min(FORCE_STAYS / 3 * (1 + seconds / FOLLOWED), FORCE_KEPT)

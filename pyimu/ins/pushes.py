@@ -13,12 +13,15 @@ a steady turn, and of mean force and that of the rest before, beyond which it is
 push."""
 
 FORCE_STAYS, FOLLOWED = 0.005, 30.0
-"""m/s^2, s; by how much the mean force of a body that rests may change, and the time over which it
-is the mean before: over minutes a temperature may change it more."""
+"""m/s^2, s; by how much the mean force of a body that rests may change, three standard deviations,
+and the time over which it is the mean before: over minutes a temperature may change it more."""
 
 MOMENT, SETTLED = 1.5, 10.0
 """s; for less the force of a body that drives may be that at rest, between speeding up and slowing
 down, and for longer it has no other one."""
+
+LASTING = 5.0
+"""s; of the longest means by which a push is looked for."""
 
 WHOLE = 4
 """Moments that a stretch is longer than, in which a push is looked for that lasts: means over a
@@ -30,21 +33,29 @@ LEAST_SPEED, COMES_UP = 0.03, 5.0
 CANDIDATES = 200
 """So many places of a still stretch at most are tried for its rest."""
 
+LEAST = 2 * MOMENT
+"""s; of what stays at another force, at least, that may be the rest. Assumed."""
+
 
 def unpushed(force: np.ndarray, noise: np.ndarray, rows: int, period: float) -> np.ndarray:
     """Marks (n,) of a still stretch, less where its ``force`` (n, 3) m/s^2 of so much ``noise``
-    (3,) has another mean than before: by blocks of ``rows``, by longer ones of what these leave,
-    and by the speed that comes up before a push is seen.
+    (3,) changes from one mean to another. Each run of them stays at one force: at rest, at a
+    constant speed or in an even push, which by itself it does not tell.
     """
-    still, long = _alike(force, noise, rows, period), max(rows, round(MOMENT / period))
-    for start, stop in runs(still):
-        if stop - start > WHOLE * long:
-            still[start:stop] = _alike(force[start:stop], noise, long, period)
-    for start, stop in runs(still):
+    marks, waiting = np.zeros(len(force), dtype=bool), [(0, len(force))]
+    while waiting:
+        start, stop = waiting.pop()
+        alike, apart = _alike(force[start:stop], noise, rows, period)
+        for a, b in runs(alike):
+            at_end = start + a == 0 or start + b == len(force)
+            marks[start + a : start + b] = at_end or (b - a) * period >= LEAST
+        others = [(start + a, start + b) for a, b in runs(apart)]
+        waiting += [(a, b) for a, b in others if LEAST <= (b - a) * period and b - a < stop - start]
+    for start, stop in runs(marks):
         own = force[start:stop]
-        still[start : start + _gained(own[::-1], noise, period)] = False
-        still[stop - _gained(own, noise, period) : stop] = False
-    return still
+        marks[start : start + _gained(own[::-1], noise, period)] = False
+        marks[stop - _gained(own, noise, period) : stop] = False
+    return marks
 
 
 def _gained(force: np.ndarray, noise: np.ndarray, period: float) -> int:
@@ -62,61 +73,89 @@ def _gained(force: np.ndarray, noise: np.ndarray, period: float) -> int:
     return count - int(np.flatnonzero(np.append(0.0, size) <= least / 2)[-1])
 
 
-def _alike(force: np.ndarray, noise: np.ndarray, rows: int, period: float) -> np.ndarray:
-    """Marks (n,) of a still stretch, less where its ``force`` (n, 3) has another mean over ``rows``
-    than before.
+def _alike(
+    force: np.ndarray, noise: np.ndarray, rows: int, period: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Marks (n,) of what of a stretch has the ``force`` (n, 3) that most of it has, by means over
+    ``rows`` and over longer ones, and of what has another; neither where one becomes the other.
 
     A body that speeds up gently does so for a second or more, and the change within a window is
     lost in noise: the means of blocks of ``rows`` show it. Where they are as before for a moment
-    alone, between speeding up and slowing down, it drives on; where they stay at another value for
-    ``SETTLED``, it stands askew.
+    alone, between speeding up and slowing down, it drives on.
     """
-    n, block = len(force) // rows, rows * period
-    if n < 3:
-        return np.ones(len(force), dtype=bool)
-    means = force[: n * rows].reshape(n, rows, 3).mean(axis=1)
-    limit = (STEADY_GATE + 3) * (FORCE_STAYS**2 + 2 * float(np.mean(noise**2)) / rows)
-    short = max(2, round(MOMENT / block))
-    calm = _rest_among(means, short, limit)
-    still = np.empty(n, dtype=bool)
-    # its first may be in the end of a push
-    rest = np.median(means[calm : calm + short], axis=0)
-    still[calm:] = _as_before(means[calm:], rest, limit, block)
-    still[: calm + 1] = _as_before(means[calm::-1], rest, limit, block)[::-1]
-    for start, stop in runs(still):
-        if start > 0 and stop < n and stop - start < short:
-            still[start:stop] = False
-    # A push begins and ends within the blocks beside it.
-    still = ~maximum_filter1d(~still, 3, mode="nearest")
-    return np.append(np.repeat(still, rows), np.full(len(force) - n * rows, still[-1]))
+    lengths = [rows, *(max(rows, round(s / period)) for s in (MOMENT, LASTING))]
+    moment = lengths[1] if len(force) > WHOLE * lengths[1] else rows
+    at, rest = _rest_among(force, noise, moment, period)
+    own, apart = np.ones(len(force), dtype=bool), np.zeros(len(force), dtype=bool)
+    for long in lengths:
+        for start, stop in runs(own):
+            if long == rows or stop - start > WHOLE * long:
+                part = slice(start, stop)
+                alike = _as_before(force[part], noise, long, period, at - start, rest)
+                # A push begins and ends within the blocks beside it.
+                beside = 2 * min(long, lengths[1]) + 1
+                own[part] = ~maximum_filter1d(~alike, beside, mode="nearest")
+                apart[part] = ~alike
+    for start, stop in runs(own):
+        if start > 0 and stop < len(own) and (stop - start) * period < MOMENT:
+            own[start:stop] = False
+    return own, apart
 
 
-def _rest_among(means: np.ndarray, count: int, limit: float) -> int:
-    """Which of the means (n, 3) begins the rest: of ``count`` of them that follow each other and
-    are alike to the root of ``limit``, those whose force most others have. A run may begin in the
-    end of a push, and have another's top in its middle.
+def _means(force: np.ndarray, rows: int) -> np.ndarray:
+    """Means (m, 3) of forces (n, 3) over blocks of ``rows``, the last of what is left as well."""
+    n = max(1, len(force) // rows)
+    edges = np.append(rows * np.arange(n), len(force))
+    return np.add.reduceat(force, edges[:-1], axis=0) / np.diff(edges)[:, None]
+
+
+def _spread(noise: np.ndarray, rows: int) -> float:
+    """(m/s^2)^2; variance of an axis of the difference of two means over ``rows`` of a rest."""
+    return (FORCE_STAYS / 3) ** 2 + 2 * float(np.mean(noise**2)) / rows
+
+
+def _rest_among(
+    force: np.ndarray, noise: np.ndarray, rows: int, period: float
+) -> tuple[int, np.ndarray]:
+    """At which row of a stretch it may rest, and its force (3,) there: of moments that are alike
+    that whose force most others have. A run may begin in the end of a push, and have another's top
+    in its middle.
     """
-    count = min(count, len(means))
+    means, spread = _means(force, rows), _spread(noise, rows)
+    count = min(max(2, round(MOMENT / (rows * period))), len(means))
     starts = np.unique(np.linspace(0, len(means) - count, CANDIDATES).astype(int))
     shared = np.empty(len(starts))
     for i, k in enumerate(starts):
         own = means[k : k + count]
         off = np.sum((means - own.mean(axis=0)) ** 2, axis=1)
-        shared[i] = np.sum(off <= limit / 2) if np.all(off[k : k + count] <= limit / 2) else 0
-    return int(starts[np.argmax(shared)])
+        alike = np.all(off[k : k + count] <= (STEADY_GATE + 3) * spread / 2)
+        shared[i] = np.sum(np.exp(-off / (2 * spread))) if alike else 0.0
+    calm = int(starts[np.argmax(shared)])
+    # its first may be in the end of a push
+    return calm * rows, np.median(means[calm : calm + count], axis=0)
 
 
-def _as_before(means: np.ndarray, rest: np.ndarray, limit: float, block: float) -> np.ndarray:
-    """Marks (n,) of means (n, 3) over ``block`` s that are that of a ``rest`` (3,), followed over
-    ``FOLLOWED``, to the root of ``limit``; and of others that stay so for ``SETTLED``.
+def _as_before(
+    force: np.ndarray, noise: np.ndarray, rows: int, period: float, at: int, rest: np.ndarray
+) -> np.ndarray:
+    """Marks (n,) of the blocks of ``rows`` whose mean is that of a ``rest`` (3,) at row ``at``,
+    followed over ``FOLLOWED`` to either side.
     """
-    long = max(2, round(SETTLED / block))
-    still = np.ones(len(means), dtype=bool)
-    for k, mean in enumerate(means):
-        last = means[max(0, k - long + 1) : k + 1]
-        still[k] = np.sum((mean - rest) ** 2) <= limit
-        if still[k]:
-            rest = rest + (mean - rest) * block / FOLLOWED
-        elif len(last) == long and np.all(np.sum((last - last.mean(axis=0)) ** 2, 1) <= limit):
-            still[k - long + 1 : k + 1], rest = True, last.mean(axis=0)
-    return still
+    means, limit = _means(force, rows), (STEADY_GATE + 3) * _spread(noise, rows)
+    calm, share = int(np.clip(at // rows, 0, len(means) - 1)), min(rows * period / FOLLOWED, 1.0)
+    alike = np.empty(len(means), dtype=bool)
+    for order in (range(calm, -1, -1), range(calm, len(means))):
+        follows = rest
+        for k in order:
+            alike[k] = np.sum((means[k] - follows) ** 2) <= limit
+            if alike[k]:
+                follows = follows + (means[k] - follows) * share
+    short = max(2, round(MOMENT / (rows * period)))
+    for start, stop in runs(alike):
+        if start > 0 and stop < len(alike) and stop - start < short:
+            alike[start:stop] = False
+    return (
+        np.repeat(alike, rows)[: len(force)]
+        if len(alike) * rows >= len(force)
+        else np.append(np.repeat(alike, rows), np.full(len(force) - len(alike) * rows, alike[-1]))
+    )

@@ -13,6 +13,7 @@ import numpy as np
 from pyimu.attitude.beyond_range import by_axis
 from pyimu.attitude.columns import latitude_of
 from pyimu.attitude.contradicted import contradicted, without
+from pyimu.attitude.rest import Rest
 from pyimu.block.parameters import number
 from pyimu.display.silent import silent
 from pyimu.errors import Finding, UserError
@@ -283,6 +284,7 @@ def _job(
     else:
         marks, _ = stops_of(*samples.white(rest, noise), zupt, turns, witnesses)
         still = faster(marks, samples.rows, len(clean))
+    rest = _as_far_as(still, rest, declared, samples, gravity)
     rest = replace(rest, rows=slice(0, rest.rows.stop * samples.rows))
     if zupt in ("auto", "foot") and np.mean(still[rest.rows]) < MOSTLY:
         # a steady drive, whose bias is that of the rests later on, by which they were found
@@ -297,6 +299,19 @@ def _job(
     live = zupt == "live"
     known = drawn, clean, part, rest, still, 0.0, gravity, False, live, None, settings
     return Job(*known, later=later)
+
+
+def _as_far_as(
+    still: np.ndarray, rest: Rest, declared: Part | None, samples: Samples, gravity: float
+) -> Rest:
+    """The rest at the start, as far as it is ``still`` (n,) by the samples after it, too: a push so
+    gentle that it seems to rest begins later.
+    """
+    stop = int(np.argmin(still)) // samples.rows
+    if rest.declared or not rest.seen or not 0 < stop < rest.rows.stop:
+        return rest
+    shorter = rest_at_start(samples.seen.slice(0, stop), declared, gravity)
+    return shorter if shorter.seen else rest
 
 
 def _clipped(recording: Recording, part: Part, stds: list[float | None], given: dict) -> dict:

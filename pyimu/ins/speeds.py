@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyimu.ins.between import BESIDE, Change, change_of_velocity
-from pyimu.ins.detector import WINDOW, Noise
+from pyimu.ins.detector import WINDOW
+from pyimu.ins.noise import Noise
 from pyimu.ins.pushes import FORCE_STAYS, LEAST_SPEED, STEADY_GATE
 from pyimu.ins.short_rests import SWUNG
 from pyimu.recording.clock import runs
@@ -28,7 +29,7 @@ MISSING = 0.01
 MOST_STRETCHES = 30
 """So many stretches may follow each other until the speed has gone again."""
 
-MOST_PUSHED = 6
+MOST_PUSHED = 10
 """So many that follow each other may be pushed."""
 
 RETURNED = 0.5
@@ -41,6 +42,10 @@ longer than ``LONG`` is pushed. Assumed."""
 DRIVES_AT_FIRST = PUSHED = float(np.log(0.05))
 """That a log whose start looks still begins with a drive, and that what is shorter is pushed.
 Assumed."""
+
+PUSHED_LONG = float(np.log(1e-2))
+"""That what is longer is pushed: a twentieth beside how likely a force is that is between -1 and 1
+m/s^2 where one at rest is known to 5 mm/s^2."""
 
 REST = float(np.log(2.0))
 """Log of how likely a rest is beside a drive where nothing tells. Assumed."""
@@ -173,7 +178,7 @@ def _rests_of(
     """
     speeds = [float(np.linalg.norm(c.velocity)) for c in changes.values()]
     top = max(speeds, default=LEAST_SPEED)
-    best = [(DRIVES_AT_FIRST * (k > 0), -1) for k in range(len(stretches))]
+    best = [(_at_first(k, stretches, changes, period), -1) for k in range(len(stretches))]
     # Behind the last stretch that a rest tells of, it says the same of all.
     ends, behind = [], [(-np.inf, -1)] * (len(stretches) + 1)
     for at in range(len(stretches)):
@@ -203,16 +208,34 @@ def _since(
     """
     found = {at: _Since(np.zeros(3), 0.0, np.eye(3), 0.0)}
     for k in range(at + 1, min(at + MOST_STRETCHES, len(stretches))):
-        ways, pushed = [], 0.0
+        ways = []
         for i in range(k - 1, max(at, k - MOST_PUSHED) - 1, -1):
             if i in found and (i, k) in changes:
                 seconds = stretches[i].rows * period if i > at else 0.0
                 drift = min(FORCE_STAYS / 3 * seconds, found[i].most_drift)
+                pushed = _pushed(stretches[i + 1 : k], period)
                 ways.append(found[i].then(changes[i, k], drift, pushed))
-            pushed += UNLIKELY if stretches[i].rows * period > LONG else PUSHED
         if ways:
             found[k] = max(ways, key=lambda way: way.score)
     return found
+
+
+def _at_first(
+    at: int, stretches: list[_Stretch], changes: dict[tuple[int, int], Change], period: float
+) -> float:
+    """Log of how likely it is that what lies before the stretch ``at`` is driven or pushed."""
+    if at == 0:
+        return 0.0
+    since = _since(0, stretches[: at + 1], changes, period)
+    driven = since[at].score if at in since else UNLIKELY
+    return DRIVES_AT_FIRST + max(driven, _pushed(stretches[:at], period))
+
+
+def _pushed(stretches: list[_Stretch], period: float) -> float:
+    """Log of how likely it is that all of these are pushed: one push may be several of them."""
+    if not stretches:
+        return 0.0
+    return PUSHED if all(s.rows * period <= LONG for s in stretches) else PUSHED_LONG
 
 
 def _change(

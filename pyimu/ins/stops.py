@@ -13,9 +13,10 @@ from pyimu.attitude.filter.compensation import noise_of
 from pyimu.attitude.rest import FORCE_OFF, Rest, find_rest
 from pyimu.errors import Finding, UserError
 from pyimu.ins.compensated import compensated
-from pyimu.ins.detector import Detected, Noise, detect
+from pyimu.ins.detector import Detected, detect
 from pyimu.ins.filter.layout import open_std
 from pyimu.ins.filter.prediction import LASTS
+from pyimu.ins.noise import Noise
 from pyimu.ins.speeds import driven
 from pyimu.ins.witnesses import REFERENCE, Witness, denied
 from pyimu.model.part import Part

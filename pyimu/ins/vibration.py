@@ -21,7 +21,7 @@ from scipy.ndimage import gaussian_filter1d
 from pyimu.attitude.columns import NOISIER
 from pyimu.attitude.rest import Rest, white_std
 from pyimu.errors import Finding
-from pyimu.ins.detector import Noise
+from pyimu.ins.noise import Noise
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording, at_own_times, filled
 from pyimu.recording.rest import rests

@@ -5,7 +5,8 @@ import pytest
 from navigation_cases import SHORT, assumed
 from scipy.stats import binom
 
-from pyimu.ins.detector import Noise, detect, ratio, threshold
+from pyimu.ins.detector import detect, ratio, threshold
+from pyimu.ins.noise import Noise
 from pyimu.recording.clock import runs
 from pyimu.rover.trajectory import motion, stop_times
 

@@ -9,7 +9,7 @@ from scipy.stats import chi2
 from pyimu import Recording
 from pyimu.attitude.rest import find_rest
 from pyimu.ins import run
-from pyimu.ins.detector import Noise
+from pyimu.ins.noise import Noise
 from pyimu.ins.vibration import vibration_of, whitened
 from pyimu.recording.clock import runs
 

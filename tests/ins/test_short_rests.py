@@ -15,7 +15,8 @@ from walks import G, Walk, walk
 from pyimu import Recording, ins
 from pyimu.errors import UserError
 from pyimu.ins.checks import without_outliers
-from pyimu.ins.detector import Noise, detect
+from pyimu.ins.detector import detect
+from pyimu.ins.noise import Noise
 from pyimu.ins.measured import CONTRADICTED, Fixes, check_fixes
 from pyimu.ins.short_rests import LEAST, between_swings
 from pyimu.ins.stances import stances, steps

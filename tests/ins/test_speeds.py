@@ -7,7 +7,8 @@ import pytest
 from scipy.stats import chi2
 
 from pyimu.ins.between import change_of_velocity
-from pyimu.ins.detector import Noise, detect
+from pyimu.ins.detector import detect
+from pyimu.ins.noise import Noise
 from pyimu.ins.speeds import driven
 from pyimu.recording.clock import runs
 

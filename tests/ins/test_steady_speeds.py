@@ -10,7 +10,8 @@ from pyimu import Recording
 from pyimu.attitude.filter.prediction import DRIVES
 from pyimu.attitude.rest import find_rest
 from pyimu.ins import run
-from pyimu.ins.detector import Noise, detect
+from pyimu.ins.detector import detect
+from pyimu.ins.noise import Noise
 from pyimu.ins.pushes import unpushed
 from pyimu.ins.speeds import driven
 from pyimu.recording.clock import runs
