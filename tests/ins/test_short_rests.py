@@ -16,8 +16,8 @@ from pyimu import Recording, ins
 from pyimu.errors import UserError
 from pyimu.ins.checks import without_outliers
 from pyimu.ins.detector import detect
-from pyimu.ins.noise import Noise
 from pyimu.ins.measured import CONTRADICTED, Fixes, check_fixes
+from pyimu.ins.noise import Noise
 from pyimu.ins.short_rests import LEAST, between_swings
 from pyimu.ins.stances import stances, steps
 from pyimu.recording.clock import runs
