@@ -245,6 +245,10 @@ def _columns(
     return measured | {f"{name}_valid": valid, f"{name}_variance": np.nan_to_num(std) ** 2}
 
 
+class NoFoot(UserError):
+    """What was taken for the stances of a foot is none, by the rest of the log."""
+
+
 CONTRADICTED = {"position": 16, "velocity": 32}
 """Bits of the filter's status."""
 
@@ -272,12 +276,12 @@ def check_fixes(
         share = np.count_nonzero(wrong) / np.count_nonzero(valid)
         first = float(recording.time[np.argmax(wrong)])
         if share > MOST_WRONG and foot and name == "velocity":
-            raise UserError(
+            raise NoFoot(
                 f"{recording.name}: {share:.0%} of what --zupt foot takes for stances contradicts "
                 f"gyro and accelerometer, the first at {first:.6g} s; is the sensor on a foot?"
             )
         if share > MOST_WRONG:
-            raise UserError(
+            raise (NoFoot if foot else UserError)(
                 f"{recording.name}: {share:.0%} of the measured {name} contradicts gyro and "
                 f"accelerometer by more than {name}_std allows, the first at {first:.6g} s; "
                 + _why(name, moves)

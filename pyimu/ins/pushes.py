@@ -96,17 +96,16 @@ def _alike(
                 beside = 2 * min(long, lengths[1]) + 1
                 own[part] = ~maximum_filter1d(~alike, beside, mode="nearest")
                 apart[part] = ~alike
-    for start, stop in runs(own):
-        if start > 0 and stop < len(own) and (stop - start) * period < MOMENT:
-            own[start:stop] = False
     return own, apart
 
 
-def _means(force: np.ndarray, rows: int) -> np.ndarray:
-    """Means (m, 3) of forces (n, 3) over blocks of ``rows``, the last of what is left as well."""
-    n = max(1, len(force) // rows)
-    edges = np.append(rows * np.arange(n), len(force))
-    return np.add.reduceat(force, edges[:-1], axis=0) / np.diff(edges)[:, None]
+def _means(force: np.ndarray, rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """Means (m, 3) of forces (n, 3) over blocks of ``rows``, the last with what is left, and of
+    how many (m,) each is.
+    """
+    starts = rows * np.arange(max(1, len(force) // rows))
+    counts = np.diff(np.append(starts, len(force)))
+    return np.add.reduceat(force, starts, axis=0) / counts[:, None], counts
 
 
 def _spread(noise: np.ndarray, rows: int) -> float:
@@ -121,7 +120,7 @@ def _rest_among(
     that whose force most others have. A run may begin in the end of a push, and have another's top
     in its middle.
     """
-    means, spread = _means(force, rows), _spread(noise, rows)
+    (means, _), spread = _means(force, rows), _spread(noise, rows)
     count = min(max(2, round(MOMENT / (rows * period))), len(means))
     starts = np.unique(np.linspace(0, len(means) - count, CANDIDATES).astype(int))
     shared = np.empty(len(starts))
@@ -141,7 +140,7 @@ def _as_before(
     """Marks (n,) of the blocks of ``rows`` whose mean is that of a ``rest`` (3,) at row ``at``,
     followed over ``FOLLOWED`` to either side.
     """
-    means, limit = _means(force, rows), (STEADY_GATE + 3) * _spread(noise, rows)
+    (means, counts), limit = _means(force, rows), (STEADY_GATE + 3) * _spread(noise, rows)
     calm, share = int(np.clip(at // rows, 0, len(means) - 1)), min(rows * period / FOLLOWED, 1.0)
     alike = np.empty(len(means), dtype=bool)
     for order in (range(calm, -1, -1), range(calm, len(means))):
@@ -154,8 +153,4 @@ def _as_before(
     for start, stop in runs(alike):
         if start > 0 and stop < len(alike) and stop - start < short:
             alike[start:stop] = False
-    return (
-        np.repeat(alike, rows)[: len(force)]
-        if len(alike) * rows >= len(force)
-        else np.append(np.repeat(alike, rows), np.full(len(force) - len(alike) * rows, alike[-1]))
-    )
+    return np.repeat(alike, counts)

@@ -27,6 +27,7 @@ from pyimu.ins.known import known_part
 from pyimu.ins.measured import (
     MEASURED,
     Fixes,
+    NoFoot,
     Told,
     check_fixes,
     fixes_of,
@@ -128,7 +129,7 @@ def run(
             found = navigated("foot")
             on_foot = Finding("on_a_foot", "gyro", walked, {})
             return replace(found, findings=(*found.findings, on_foot))
-        except UserError:
+        except NoFoot:
             pass  # it contradicts them, or has velocities of its own
     return navigated(zupt)
 

@@ -9,6 +9,7 @@ is another than that of the stretches beside it, turned as the gyro says, it is 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -36,16 +37,15 @@ RETURNED = 0.5
 """Of the speeds in between: the least that must have gone where a stretch is called a rest."""
 
 UNLIKELY = float(np.log(1e-6))
-"""Log of how likely it is that a change of the velocity is off beyond its errors, and that what is
-longer than ``LONG`` is pushed. Assumed."""
+"""Log of how likely it is that a change of the velocity is off beyond its errors. Assumed."""
 
 DRIVES_AT_FIRST = PUSHED = float(np.log(0.05))
 """That a log whose start looks still begins with a drive, and that what is shorter is pushed.
 Assumed."""
 
-PUSHED_LONG = float(np.log(1e-2))
-"""That what is longer is pushed: a twentieth beside how likely a force is that is between -1 and 1
-m/s^2 where one at rest is known to 5 mm/s^2."""
+PUSHED_LONG = float(np.log(0.01))
+"""That what is longer than ``LONG`` is pushed. Beside a tenth of it, fewer rests of bodies that are
+pushed gently are found; beside five times as much, chance calls a rest pushed."""
 
 REST = float(np.log(2.0))
 """Log of how likely a rest is beside a drive where nothing tells. Assumed."""
@@ -65,7 +65,7 @@ TURNED = 0.1
 
 APART, LONG = 2 * WINDOW, 2.0
 """s; stretches that are nearer to each other than the first are one that a window parted by chance,
-as it does in a gentle push. A push is even for less than the second."""
+as it does in a gentle push. A push is seldom even for more than the second."""
 
 
 @dataclass(frozen=True)
@@ -143,23 +143,27 @@ def driven(
     noise: Noise,
     period: float,
     moves: np.ndarray | None = None,
+    told: dict[tuple[int, ...], Change | None] | None = None,
 ) -> tuple[list[tuple[int, int]], int]:
     """The stretches (start, stop) of ``still`` (n,) that are driven at a constant speed, and how
     many may as well be the rests: where a body drives at one speed again and again, only the start
     of a log tells that from its rests.
 
     ``gyro`` rad/s and ``accel`` m/s^2 are (n, 3), ``period`` is in s. Rows that ``moves`` (n,)
-    marks are known to be no rest, and are not among them.
+    marks are known to be no rest, and are not among them. What is ``told`` of the change of the
+    velocity between two stretches, by their rows, is kept for a second call.
     """
     known = np.zeros(len(still), dtype=bool) if moves is None else moves & still
     parts = [(*run, own) for own in (False, True) for run in runs(still & (known == own))]
     stretches = [_Stretch.of(gyro, accel, *part) for part in sorted(parts)]
-    changes = {
-        (i, k): found
-        for i in range(len(stretches))
-        for k in range(i + 1, min(i + 1 + MOST_PUSHED, len(stretches)))
-        if (found := _change(time, gyro, accel, (stretches[i], stretches[k]), noise, period))
-    }
+    told, changes = {} if told is None else told, {}
+    for i, one in enumerate(stretches):
+        for k, other in enumerate(stretches[i + 1 : i + 1 + MOST_PUSHED], i + 1):
+            rows = one.start, one.stop, other.start, other.stop
+            if rows not in told:
+                told[rows] = _change(time, gyro, accel, (one, other), noise, period)
+            if (found := told[rows]) is not None:
+                changes[i, k] = found
     if not stretches:
         return [], 0
     rests, best = _rests_of(stretches, changes, period)
@@ -178,7 +182,7 @@ def _rests_of(
     """
     speeds = [float(np.linalg.norm(c.velocity)) for c in changes.values()]
     top = max(speeds, default=LEAST_SPEED)
-    best = [(_at_first(k, stretches, changes, period), -1) for k in range(len(stretches))]
+    best = [(score, -1) for score in _at_first(stretches, changes, period)]
     # Behind the last stretch that a rest tells of, it says the same of all.
     ends, behind = [], [(-np.inf, -1)] * (len(stretches) + 1)
     for at in range(len(stretches)):
@@ -221,14 +225,14 @@ def _since(
 
 
 def _at_first(
-    at: int, stretches: list[_Stretch], changes: dict[tuple[int, int], Change], period: float
-) -> float:
-    """Log of how likely it is that what lies before the stretch ``at`` is driven or pushed."""
-    if at == 0:
-        return 0.0
-    since = _since(0, stretches[: at + 1], changes, period)
-    driven = since[at].score if at in since else UNLIKELY
-    return DRIVES_AT_FIRST + max(driven, _pushed(stretches[:at], period))
+    stretches: list[_Stretch], changes: dict[tuple[int, int], Change], period: float
+) -> Iterator[float]:
+    """Log of how likely it is that all that lies before each stretch is driven or pushed."""
+    since = _since(0, stretches, changes, period)
+    yield 0.0
+    for at in range(1, len(stretches)):
+        driven = since[at].score if at in since else UNLIKELY
+        yield DRIVES_AT_FIRST + max(driven, _pushed(stretches[:at], period))
 
 
 def _pushed(stretches: list[_Stretch], period: float) -> float:

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from pyimu.errors import UserError
+from pyimu.ins.measured import NoFoot
 from pyimu.recording.clock import runs
 from pyimu.recording.recording import Recording
 
@@ -45,10 +45,10 @@ def standing(recording: Recording, bias: np.ndarray, gravity: float) -> Recordin
     """The recording with a measured velocity of 0 in each ``WINDOW`` of a stance, to ``STD``.
 
     The gyro's ``bias`` (3,) is in rad/s, ``gravity`` in m/s^2. It is no rest, whose rate is the
-    bias. Raises UserError for a log that has measured velocities of its own.
+    bias. Raises NoFoot for a log that has measured velocities of its own.
     """
     if recording.velocity_east is not None or recording.velocity_north is not None:
-        raise UserError(
+        raise NoFoot(
             f"{recording.name}: --zupt foot makes velocities of 0 of the stances, and the log has "
             "measured ones; another --zupt takes these, --no-fixes leaves them out"
         )

@@ -12,6 +12,7 @@ from pyimu.attitude.columns import NOISIER
 from pyimu.attitude.filter.compensation import noise_of
 from pyimu.attitude.rest import FORCE_OFF, Rest, find_rest
 from pyimu.errors import Finding, UserError
+from pyimu.ins.between import Change
 from pyimu.ins.compensated import compensated
 from pyimu.ins.detector import Detected, detect
 from pyimu.ins.filter.layout import open_std
@@ -149,6 +150,7 @@ def _driven(
     """
     samples = recording.time, recording.gyro, recording.accel
     moves, said, drives, doubt = np.zeros(len(still), dtype=bool), [], [], 0
+    told: dict[tuple[int, ...], Change | None] = {}
     for judges in (False, True):
         left = still & ~moves
         for start, stop in drives:
@@ -157,7 +159,7 @@ def _driven(
         more, own = denied(recording.time, left, asked)
         if not judges or more.any():
             moves, said = moves | more, said + own
-            known = noise, recording.sample_period, moves
+            known = noise, recording.sample_period, moves, told
             drives, doubt = driven(*samples, still, *known)
     said += [Finding("rests_or_drives", "", doubt, {})] if doubt else []
     return drives, moves, said

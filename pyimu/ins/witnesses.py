@@ -136,11 +136,14 @@ class Witness:
         if len(at) < 2:
             return
         begins = np.arange(at[0], max(at[-1] - SHORTEST, at[0]) + SHORTEST / 2, SHORTEST / 2)
-        edges = [np.searchsorted(at, [t, t + SHORTEST]) for t in begins]
-        edges = [(a, b) for a, b in edges if b > a]
+        edges = np.searchsorted(at, [begins, begins + SHORTEST]).T
+        seen = edges[:, 1] > edges[:, 0]
+        begins, edges = begins[seen], edges[seen]
         means = np.array([np.median(values[a:b], axis=0) for a, b in edges])
+        # Beside a gap they are further apart, and any speed may come up in it.
+        next_to = begins[2:] - begins[:-2] < 1.5 * SHORTEST
         changes = np.linalg.norm(means[2:] - means[:-2], axis=1)
-        if np.any(changes > UNFELT * SHORTEST):
+        if np.any(changes[next_to] > UNFELT * SHORTEST):
             return
         for (a, b), mean in zip(edges, means, strict=True):
             least = max(FASTER, SPEED_BY * self.std / np.sqrt(b - a))

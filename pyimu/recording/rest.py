@@ -228,6 +228,8 @@ def rests(recording: Recording) -> list[tuple[int, int]]:
 
 
 def _at_any_phase(recording: Recording) -> list[tuple[int, int]]:
+    if len(recording) < 2:
+        return []
     still, step = np.zeros(len(recording), dtype=bool), SECOND / recording.sample_period / PHASES
     for start in sorted({round(k * step) for k in range(PHASES)}):
         for a, b in still_rows(recording.slice(start)) if start + 2 < len(recording) else ():

@@ -53,9 +53,16 @@ def in_doubt(a: Outcome) -> Iterator[str]:
             yield (
                 f"{f.count} stretches at a constant speed are as alike as the rests: a log that "
                 f"begins {'at rest' if not a.still[0] else 'in a drive'} would show the same, with "
-                "rests and drives the other way round, and the path would be another; a column "
-                "stationary, a speed or positions would tell"
+                "rests and drives the other way round, and the path would be another; "
+                + _would_tell(a)
             )
+
+
+def _would_tell(a: Outcome) -> str:
+    """What tells rests from drives that the log has not."""
+    if a.fixes is None and a.recording.speed is None:
+        return "a column stationary, a speed or positions would tell"
+    return "a column stationary would tell, which what else the log measures does not"
 
 
 def on_a_foot(a: Outcome) -> Iterator[str]:
