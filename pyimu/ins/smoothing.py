@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg.lapack import dposv
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude.input_grid import InputGrid
@@ -91,12 +91,15 @@ class _Backward:
         after = self._unpacked(y[:, self.after][:, self.nominal :])
         moved = y[:, self.moved]
         transition = y[:, self.transition].reshape(-1, self.n, self.n).transpose(0, 2, 1)
+        scale = np.sqrt(np.maximum(np.diagonal(before, axis1=1, axis2=2), 1e-30))
+        unit = before / scale[:, None, :] / scale[:, :, None]
+        unit[:, *np.diag_indices(self.n)] += 1e-13
         mean, covariance = np.zeros_like(moved), np.empty_like(after)
         for k in reversed(range(len(y))):
             mean[k], covariance[k] = self._back(after[k])
             # what y holds is gone when the segment before takes its place
             kept = transition[k].copy() if k == 0 else transition[k]
-            self.next = (before[k], kept, moved[k] + mean[k], covariance[k])
+            self.next = (before[k], unit[k], scale[k], kept, moved[k] + mean[k], covariance[k])
         return mean, covariance
 
     def centres(self, y: np.ndarray) -> np.ndarray:
@@ -106,14 +109,12 @@ class _Backward:
     def _back(self, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         if self.next is None:
             return np.zeros(self.n), own
-        predicted, transition, mean, covariance = self.next
-        scale = np.sqrt(np.maximum(np.diag(predicted), 1e-30))
-        unit = predicted / scale / scale[:, None]
-        unit[np.diag_indices(self.n)] += 1e-13
+        predicted, unit, scale, transition, mean, covariance = self.next
         cross = (own @ transition.T) / scale
-        gain = (
-            cho_solve(cho_factor(unit, check_finite=False), cross.T, check_finite=False).T / scale
-        )
+        _, solved, wrong = dposv(unit, cross.T)
+        if wrong:
+            raise np.linalg.LinAlgError("a predicted covariance is not positive definite")
+        gain = solved.T / scale
         after = own + gain @ (covariance - predicted) @ gain.T
         return gain @ mean, (after + after.T) / 2
 
