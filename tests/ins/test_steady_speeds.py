@@ -9,6 +9,7 @@ from scipy.stats import chi2
 from pyimu import Recording
 from pyimu.attitude.filter.prediction import DRIVES
 from pyimu.attitude.rest import find_rest
+from pyimu.errors import Finding
 from pyimu.ins import run
 from pyimu.ins.detector import detect
 from pyimu.ins.noise import Noise
@@ -90,6 +91,36 @@ def test_a_push_that_lasts_is_seen_from_where_its_speed_comes_up(seed):
     assert first[0] == 0 and first[1] * H > 25 and speed[first[1] - 1] < 0.1
 
 
+GENTLE = [(12, 0), (40, 0.6), (10, 0.6), (2, 0), (8, 0), (2, 0.7), (8, 0.7), (45, 0), (9, 0)]
+GENTLE += [(30, 0.5), (30, 0), (10, 0)]
+"""Starts and brakes of up to 0.03 m/s^2, as long as the rests beside them and longer."""
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_pushed_gently_for_long_does_not_stand_askew(seed):
+    """What stayed at another force for 10 s was taken for a rest on a slope, though the gyro showed
+    no turn: up to 50 s of each such log. One in a thousand ends is further off."""
+    _, speed, log = measured(GENTLE, 7390 + seed)
+    found = run(log, method="filter", heading0=0.0)
+    assert np.abs(speed[found.still]).max() < 0.1
+    assert found.still[speed == 0].mean() > 0.4
+    track, way = found.tracks["filter"], np.array([np.sum(speed) * H, 0.0, 0.0])
+    off = (track.position[-1] - way) / track.position_std[-1]
+    assert off @ off < chi2.isf(1e-3, 3)
+
+
+def test_a_rest_that_a_turn_left_at_another_force_is_one():
+    """5 mrad within a second: 0.05 m/s^2 as of a push, and a turn that the gyro shows."""
+    time, _, log = measured([(60, 0)], 7395, bias=0.0)
+    gyro, accel, lean = log.gyro.copy(), log.accel.copy(), 0.005
+    gyro[3000:3100, 1] += lean
+    accel[:, 0] += G * lean * -np.clip(time - 30.0, 0, 1)
+    noise = Noise(np.full(3, RATE), np.full(3, FORCE), np.full(3, WALK), np.zeros(3))
+    still = detect(time, gyro, accel, noise, H).still
+    drives = driven(time, gyro, accel, still, noise, H)[0]
+    assert still[:2700].mean() > 0.9 and still[3300:].mean() > 0.8 and not drives
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_a_log_that_begins_in_a_drive_ends_where_it_claims(seed):
     """Before, the drive with which it begins was the rest, and each other rest a drive. 3 axes; one
@@ -118,6 +149,22 @@ def test_where_nothing_tells_rests_from_drives_it_is_said():
     other = [*one[:5], (1.5, 0.7), (20, 0.7), (1.5, 0), (9, 0)]
     assert told(one, 15.0)[1][1] == 2
     assert told(other, 0.0)[1][1] == 0
+
+
+def test_what_would_tell_rests_from_drives_is_what_the_log_has_not():
+    """Of a log with a speed nobody is told that a speed would tell."""
+    log = measured([(3, 0)], 7371)[2]
+    doubt = Finding("rests_or_drives", "", 2, {})
+    for own, more in ((log, True), (replace(log, speed=np.zeros(len(log))), False)):
+        found = replace(run(own, method="filter", heading0=0.0), findings=(doubt,))
+        assert ("stationary, a speed or positions would tell" in found.report()) == more
+
+
+@pytest.mark.parametrize("count", (2, 4, 12))
+def test_a_log_of_a_few_samples_has_a_path(count):
+    """Where its vibration is looked for there was one sample, without a period."""
+    rows = measured([(3, 0)], 7372)[2].slice(0, count)
+    assert np.isfinite(run(rows, heading0=0.0).tracks["smoother"].position_std).all()
 
 
 def test_a_rest_at_the_start_ends_where_a_speed_begins():

@@ -59,6 +59,14 @@ def test_a_speed_denies_a_rest_and_one_that_jumps_none():
     assert not speeds(5.0 * (np.arange(len(TIME)) % 500 == 0)).moves(TIME, STILL).any()
 
 
+def test_a_speed_that_is_missing_for_seconds_tells_what_is_before_and_after():
+    """What comes up while no speed is measured is none that nothing feels."""
+    rows = np.r_[0:1000:10, 2000:6000:10]
+    speed = np.where(TIME > 15, 2.0, 0.0)[rows, None]
+    moves = Witness("speed", TIME[rows], speed, 0.02, fast=True).moves(TIME, STILL)
+    assert moves[TIME > 20].all() and not moves[TIME < 9].any()
+
+
 def test_of_a_speed_and_a_position_the_one_that_sees_more_counts():
     """Wheels that slip at 1 m/s for a minute go 60 m, where 0.1 m would be seen; beside positions
     to 5 m, which see no less than 50, the speed counts."""
