@@ -67,6 +67,11 @@ class Change:
     apart: float
     most: float
 
+    @property
+    def speed(self) -> float:
+        """m/s; the size of what is gained."""
+        return float(np.linalg.norm(self.velocity))
+
 
 def change_of_velocity(
     gyro: np.ndarray, accel: np.ndarray, ends: tuple[Moment, Moment], noise: Noise, period: float
