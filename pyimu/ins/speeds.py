@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from pyimu.ins.detector import WINDOW
 from pyimu.ins.noise import Noise
 from pyimu.ins.pushes import FORCE_STAYS, LEAST_SPEED, STEADY_GATE
 from pyimu.ins.short_rests import SWUNG
+from pyimu.numerics.laws import chi2
 from pyimu.recording.clock import runs
 
 BETWEEN = 300.0
@@ -59,6 +61,9 @@ TURNS = 2 * SWUNG
 ONE_MORE = 10.0
 """Log of how much likelier a choice may be beside which another is possible: that of one rest more,
 as a log has that begins and ends at rest."""
+
+UNSURE = float(chi2.isf(1e-3, 3))
+"""Square of a speed over its variance that is left at a rest by chance in one of a thousand."""
 
 TURNED = 0.1
 """rad; a body that has turned by more and has the velocity that it had, has none."""
@@ -127,12 +132,19 @@ class _Since:
         """
         if not self.moved:
             return self.score
-        variance = self.variance + (LEAST_SPEED / 3) ** 2
-        of_size = 1.5 * float(np.log(top**2 / (2 * np.pi * variance)))
+        of_size = 1.5 * float(np.log(top**2 / (2 * np.pi * self._spread)))
         if of_size <= 0:
             return self.score
-        off = float(self.velocity @ self.velocity) / variance
-        return self.score + max(of_size - off / 2, UNLIKELY)
+        return self.score + max(of_size - self.off / 2, UNLIKELY)
+
+    @property
+    def _spread(self) -> float:
+        return self.variance + (LEAST_SPEED / 3) ** 2
+
+    @property
+    def off(self) -> float:
+        """Square of the velocity that is left over its variance."""
+        return float(self.velocity @ self.velocity) / self._spread
 
 
 def driven(
@@ -144,10 +156,11 @@ def driven(
     period: float,
     moves: np.ndarray | None = None,
     told: dict[tuple[int, ...], Change | None] | None = None,
-) -> tuple[list[tuple[int, int]], int]:
-    """The stretches (start, stop) of ``still`` (n,) that are driven at a constant speed, and how
-    many may as well be the rests: where a body drives at one speed again and again, only the start
-    of a log tells that from its rests.
+) -> tuple[list[tuple[int, int]], int, list[int]]:
+    """The stretches (start, stop) of ``still`` (n,) that are driven at a constant speed; how many
+    may as well be the rests: where a body drives at one speed again and again, only the start of a
+    log tells that from its rests; and the first rows of the rests that are unsure, as a speed seems
+    to be left since the one before.
 
     ``gyro`` rad/s and ``accel`` m/s^2 are (n, 3), ``period`` is in s. Rows that ``moves`` (n,)
     marks are known to be no rest, and are not among them. What is ``told`` of the change of the
@@ -165,13 +178,27 @@ def driven(
             if (found := told[rows]) is not None:
                 changes[i, k] = found
     if not stretches:
-        return [], 0
+        return [], 0, []
     rests, best = _rests_of(stretches, changes, period)
     drives = [s for k, s in enumerate(stretches) if k not in rests and not s.moves]
     without = [replace(s, moves=s.moves or k in rests) for k, s in enumerate(stretches)]
     others, score = _rests_of(without, changes, period)
     doubt = len(others) > 1 and score - DRIVES_AT_FIRST > max(best - ONE_MORE, 0.0)
-    return [(s.start, s.stop) for s in drives], len(others) if doubt else 0
+    unsure = [stretches[k].start for k in _unsure(rests, stretches, changes, period)]
+    return [(s.start, s.stop) for s in drives], len(others) if doubt else 0, unsure
+
+
+def _unsure(
+    rests: set[int],
+    stretches: list[_Stretch],
+    changes: dict[tuple[int, int], Change],
+    period: float,
+) -> Iterator[int]:
+    """Which of the rests have a speed left since the one before, beyond ``UNSURE``."""
+    for last, k in pairwise(sorted(rests)):
+        since = _since(last, stretches[: k + 1], changes, period)
+        if k in since and since[k].moved and since[k].off > UNSURE:
+            yield k
 
 
 def _rests_of(

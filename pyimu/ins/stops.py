@@ -149,7 +149,7 @@ def _driven(
     left alone, and the samples once more where it objects.
     """
     samples = recording.time, recording.gyro, recording.accel
-    moves, said, drives, doubt = np.zeros(len(still), dtype=bool), [], [], 0
+    moves, said, drives, doubt, unsure = np.zeros(len(still), dtype=bool), [], [], 0, []
     told: dict[tuple[int, ...], Change | None] = {}
     for judges in (False, True):
         left = still & ~moves
@@ -160,8 +160,11 @@ def _driven(
         if not judges or more.any():
             moves, said = moves | more, said + own
             known = noise, recording.sample_period, moves, told
-            drives, doubt = driven(*samples, still, *known)
+            drives, doubt, unsure = driven(*samples, still, *known)
     said += [Finding("rests_or_drives", "", doubt, {})] if doubt else []
+    if unsure:
+        first = {"first": float(recording.time[unsure[0]])}
+        said.append(Finding("unsure_rests", "", len(unsure), first))
     return drives, moves, said
 
 

@@ -14,7 +14,7 @@ from pyimu.ins import run
 from pyimu.ins.detector import detect
 from pyimu.ins.noise import Noise
 from pyimu.ins.pushes import unpushed
-from pyimu.ins.speeds import driven
+from pyimu.ins.speeds import _change, _Stretch, _unsure, driven
 from pyimu.recording.clock import runs
 
 H, G = 0.01, 9.80665
@@ -158,6 +158,22 @@ def test_what_would_tell_rests_from_drives_is_what_the_log_has_not():
     for own, more in ((log, True), (replace(log, speed=np.zeros(len(log))), False)):
         found = replace(run(own, method="filter", heading0=0.0), findings=(doubt,))
         assert ("stationary, a speed or positions would tell" in found.report()) == more
+
+
+def test_rests_between_which_a_speed_comes_up_are_said():
+    """0.3 m/s that come within 2 s and never go: two rests are told, and one drives."""
+    time, speed, log = measured([(30, 0), (2, 0.3), (30, 0.3)], 7373, bias=0.0)
+    noise = Noise(np.full(3, RATE), np.full(3, FORCE), np.full(3, WALK), np.zeros(3))
+    at = np.flatnonzero(speed == 0)[-1]
+    still = (time < 29) | (time > 33)
+    stretches = [_Stretch.of(log.gyro, log.accel, *run) for run in runs(still)]
+    change = _change(time, log.gyro, log.accel, tuple(stretches), noise, H)
+    assert at < stretches[1].start
+    assert list(_unsure({0, 1}, stretches, {(0, 1): change}, H)) == [1]
+    assert not list(_unsure({1}, stretches, {(0, 1): change}, H))
+    found = run(log, method="filter", heading0=0.0)
+    finding = Finding("unsure_rests", "", 1, {"first": 32.0})
+    assert "a speed is left" in replace(found, findings=(finding,)).report()
 
 
 @pytest.mark.parametrize("count", (2, 4, 12))

@@ -58,6 +58,17 @@ def in_doubt(a: Outcome) -> Iterator[str]:
             )
 
 
+def unsure(a: Outcome) -> Iterator[str]:
+    """That a speed seems to be left at rests."""
+    for f in a.findings:
+        if f.kind == "unsure_rests":
+            yield (
+                f"At {counted(f.count, 'rest')}, the first at {f.detail['first']:.6g} s, a speed "
+                "is left by what came before: it or the rest before may be a push too gentle to be "
+                f"seen, and the path further off than its standard deviation; {_would_tell(a)}"
+            )
+
+
 def _would_tell(a: Outcome) -> str:
     """What tells rests from drives that the log has not."""
     if a.fixes is None and a.recording.speed is None:
