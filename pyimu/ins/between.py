@@ -21,7 +21,7 @@ import numpy as np
 from numba import njit
 from scipy.spatial.transform import Rotation
 
-from pyimu.ins.detector import kept_for
+from pyimu.ins.detector import FORCE_KEPT, kept_for
 from pyimu.ins.noise import Noise
 from pyimu.ins.pushes import FORCE_STAYS
 from pyimu.units import STANDARD_GRAVITY
@@ -34,6 +34,10 @@ BESIDE = 10.0
 
 GAIN = 0.02
 """That of a scale factor and a misalignment of a gyro, and of an accelerometer, likewise."""
+
+
+TURNED = 0.1
+"""rad; a body that has turned by more shows other errors of its accelerometer."""
 
 
 class Moment(Protocol):
@@ -106,7 +110,10 @@ def change_of_velocity(
     velocity = velocity - _by_errors(gain @ off, turns, rates, force, share, period)
     spread = float(np.linalg.eigvalsh(last @ known @ last.T).max())
     spread += _left(noise, of_ends, velocity, rates, period)
-    apart = float(off @ np.linalg.solve(own + kept_for(n * period) ** 2 * np.eye(3), off))
+    # Of a body that turned meanwhile, what an accelerometer's error changes by in one attitude.
+    turned = np.trace(turns, axis1=1, axis2=2).min() < 1 + 2 * np.cos(TURNED)
+    kept = FORCE_KEPT if turned else kept_for(n * period)
+    apart = float(off @ np.linalg.solve(own + kept**2 * np.eye(3), off))
     most = float(np.linalg.norm(velocity, axis=1).max())
     angle = float(Rotation.from_matrix(turns[-1]).magnitude())
     return Change(velocity[-1], spread, turns[-1], angle, apart, most)

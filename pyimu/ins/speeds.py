@@ -207,8 +207,10 @@ def _rests_of(
     """Which stretches are rests in the likeliest of all choices, by dynamic programming over the
     rests, and the log of how likely it is.
     """
-    speeds = [c.speed for c in changes.values() if c.speed**2 > (STEADY_GATE + 3) * c.variance]
-    top = max(speeds, default=LEAST_SPEED)
+    speeds = [c.speed for c in changes.values()]
+    # Of a change that is hardly known the speed is mostly error.
+    known = [c.speed for c in changes.values() if c.speed**2 > (STEADY_GATE + 3) * c.variance]
+    top = max(known or speeds, default=LEAST_SPEED)
     best = [(score, -1) for score in _at_first(stretches, changes, period)]
     # Behind the last stretch that a rest tells of, it says the same of all.
     ends, behind = [], [(-np.inf, -1)] * (len(stretches) + 1)
