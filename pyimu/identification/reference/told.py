@@ -7,11 +7,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from scipy.signal import csd
 
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import OWN
-from pyimu.recording.reference.band import COHERENCE
+from pyimu.recording.reference.band import COHERENCE, passed
 from pyimu.report.numbers import quantity
 
 SLOWEST = 4.0
@@ -47,13 +46,17 @@ def followed_up_to(trial: Trial) -> float:
     """The frequency [Hz] at which a gyro shows half the power of its reference, where the two
     cohere there and on either side, and it is below ``SLOWEST``; else zero.
 
-    The gain is that of the linear filter of all axes that explains most, sqrt(tr(S_gr S_rr^-1 S_rg)
-    / tr(S_rr)) (Bendat and Piersol 2010, chapter 7), over its value at the lowest coherent
-    frequencies.
+    The gain is that of the linear filter of all axes that explains most (Bendat and Piersol 2010,
+    chapter 7), over its value at the lowest coherent frequencies.
     """
     if trial.kind != "gyro" or trial.reference not in ("attitude", "rate"):
         return 0.0
-    frequency, share, gain = _passed(trial)
+    axes, kept = list(trial.axes), np.zeros(len(trial.time), dtype=bool)
+    for start, stop in trial.segments:
+        kept[start:stop] = True
+    shown = np.where(kept[:, None], trial.y[:, axes], np.nan)
+    given = trial.u[:, OWN[trial.kind]][:, axes]
+    frequency, share, gain = passed(trial.time, shown, given, FRAME, LEAST_FRAMES)
     seen = np.flatnonzero((share >= COHERENCE) & (frequency > 0.0))
     if len(seen) < 2 * BESIDE + 1:
         return 0.0
@@ -65,31 +68,3 @@ def followed_up_to(trial: Trial) -> float:
         return 0.0
     cutoff = float(frequency[seen[last]])
     return cutoff if cutoff < SLOWEST else 0.0
-
-
-def _passed(trial: Trial) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Frequencies (f,) Hz, the share (f,) of the gyro's power that the reference explains, and the
-    gain (f,) with which it does.
-    """
-    axes = list(trial.axes)
-    length = round(FRAME / trial.h)
-    both = np.column_stack([trial.y[:, axes], trial.u[:, OWN[trial.kind]][:, axes]])
-    pieces = [both[a:b] for a, b in trial.segments if b - a >= length]
-    frames = [2 * len(piece) // length - 1 for piece in pieces]
-    if sum(frames) < LEAST_FRAMES:
-        return np.zeros(0), np.zeros(0), np.zeros(0)
-    spectra = sum(n * _spectra(piece, length) for n, piece in zip(frames, pieces, strict=True))
-    frequency, p = np.fft.rfftfreq(length, trial.h), len(axes)
-    by_reference = np.linalg.pinv(spectra[:, p:, p:], hermitian=True)
-    explained = spectra[:, :p, p:] @ by_reference @ spectra[:, p:, :p]
-    shown, total, given = (
-        np.trace(s, axis1=1, axis2=2).real
-        for s in (explained, spectra[:, :p, :p], spectra[:, p:, p:])
-    )
-    return frequency, shown / np.maximum(total, 1e-300), np.sqrt(shown / np.maximum(given, 1e-300))
-
-
-def _spectra(values: np.ndarray, length: int) -> np.ndarray:
-    """The cross spectra (f, c, c) of values (n, c), the first conjugated."""
-    columns = values.T
-    return csd(columns[:, None], columns[None, :], nperseg=length, axis=-1)[1].transpose(2, 0, 1)

@@ -62,25 +62,34 @@ def coherence(
 
     The share is None where there are too few frames.
     """
-    period = float(np.median(np.diff(time)))
-    both = np.column_stack([y, x])
     for seconds in FRAMES:
-        length = max(16, round(seconds / period))
-        starts = _starts(time, both, length, period)
-        if len(starts) >= LEAST_FRAMES:
-            share = _explained(both, starts, length, y.shape[1])
-            return np.fft.rfftfreq(length, period), share
+        frequency, share, _ = passed(time, y, x, seconds, LEAST_FRAMES)
+        if len(frequency):
+            return frequency, share
     return np.zeros(0), None
 
 
-def _explained(values: np.ndarray, starts: np.ndarray, length: int, p: int) -> np.ndarray:
-    """The share (f,) of the power in the first ``p`` columns of values (n, p + q) that the other
-    columns explain, in frames that begin at ``starts`` (k,).
+def passed(
+    time: np.ndarray, y: np.ndarray, x: np.ndarray, seconds: float, least: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The same frequencies (f,) and share (f,), and the gain (f,) of the linear filter of ``x``
+    that explains most of ``y``, sqrt(tr(S_yx S_xx^-1 S_xy) / tr(S_xx)); by frames of so many
+    ``seconds``, empty where there are fewer than the ``least`` number.
     """
-    s = _cross_spectra(values, starts, length)
-    explained = s[:, :p, p:] @ np.linalg.pinv(s[:, p:, p:], hermitian=True) @ s[:, p:, :p]
-    total = np.trace(s[:, :p, :p], axis1=1, axis2=2).real
-    return np.trace(explained, axis1=1, axis2=2).real / np.where(total > 0, total, np.inf)
+    period = float(np.median(np.diff(time)))
+    both = np.column_stack([y, x])
+    length, p = max(16, round(seconds / period)), y.shape[1]
+    starts = _starts(time, both, length, period)
+    if len(starts) < least:
+        return np.zeros(0), np.zeros(0), np.zeros(0)
+    s = _cross_spectra(both, starts, length)
+    by_x = s[:, :p, p:] @ np.linalg.pinv(s[:, p:, p:], hermitian=True) @ s[:, p:, :p]
+    explained, total, given = (
+        np.trace(one, axis1=1, axis2=2).real for one in (by_x, s[:, :p, :p], s[:, p:, p:])
+    )
+    share = explained / np.where(total > 0, total, np.inf)
+    gain = np.sqrt(np.maximum(explained, 0.0) / np.where(given > 0, given, np.inf))
+    return np.fft.rfftfreq(length, period), share, gain
 
 
 def _cross_spectra(values: np.ndarray, starts: np.ndarray, length: int) -> np.ndarray:
