@@ -159,12 +159,11 @@ def detect(
             tilt = noise.rate**2 * period * away + variance_of_bias * away**2
             tilt = STANDARD_GRAVITY**2 * (tilt + noise.walk**2 * away**3 / 3)
             white = noise.force**2 * (1 / (stop - start) + 1 / before.rows)
-            turned = way_of(rates, rows, period)
-            spread = float(np.mean(tilt + white)) + (FORCE_TURNED * turned) ** 2
-            if turned <= MOST_TURN and _is_pushed(off, spread + FORCE_KEPT**2):
+            spread = float(np.mean(tilt + white))
+            pushed, as_before = _pushed_by(off, spread, way_of(rates, rows, period), away)
+            if pushed:
                 still[start:stop] = False
                 continue
-            as_before = turned > MOST_TURN or not _is_pushed(off, spread + kept_for(away) ** 2)
         known = variance_of_bias + noise.walk**2 * away
         bias, variance_of_bias = _followed(bias, known, gyro[start:stop], noise, period)
         at = float(time[stop - 1])
@@ -275,6 +274,18 @@ def way_of(rates: np.ndarray, rows: int, period: float) -> float:
     parts = np.add.reduceat(rates, np.arange(0, len(rates), rows), axis=0) * period
     way = float(np.linalg.norm(parts, axis=1).sum())
     return way if np.isfinite(way) else np.inf
+
+
+def _pushed_by(off: np.ndarray, spread: float, turned: float, away: float) -> tuple[bool, bool]:
+    """Whether a mean force that is ``off`` (3,) m/s^2, ``away`` s after a rest and a turn of
+    ``turned`` rad, is pushed, and whether it is as it was but for what an accelerometer's error
+    changes by in that time; its variance ``spread`` is that of noise.
+    """
+    if turned > MOST_TURN:
+        return False, True
+    spread += (FORCE_TURNED * turned) ** 2
+    kept = not _is_pushed(off, spread + kept_for(away) ** 2)
+    return _is_pushed(off, spread + FORCE_KEPT**2), kept
 
 
 def _is_pushed(off: np.ndarray, spread: float) -> bool:
