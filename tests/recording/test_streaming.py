@@ -5,8 +5,9 @@ grow with the file.
 import gzip
 import os
 import re
+import time
 import tracemalloc
-from itertools import pairwise
+from itertools import islice, pairwise
 from pathlib import Path
 
 import log_files
@@ -20,6 +21,7 @@ from pyarrow import parquet
 
 import pyimu.recording.formats.parquet
 from pyimu.errors import UserError
+from pyimu.recording.formats.text import CsvReader
 from pyimu.recording.log import HEAD, open_log, read_recording
 from pyimu.recording.recording import join
 
@@ -294,7 +296,58 @@ def test_leaving_early_closes_the_file(kind, tmp_path):
     pieces = open_log(path, columns).pieces(10)
     next(pieces)
     pieces.close()
+    for _ in range(3000):  # a text is closed by the last of Arrow's threads
+        if not held():
+            break
+        time.sleep(0.01)
     assert held() == []
+
+
+class Watched:
+    """A file that counts what is still read of it once it was closed."""
+
+    def __init__(self, path):
+        self.file, self.closed, self.late = open(path, "rb"), False, 0
+
+    def read(self, size):
+        data = self.file.read(size)
+        time.sleep(0.001)  # another thread's turn
+        self.late += self.closed
+        return data
+
+    def tell(self):
+        return self.file.tell()
+
+    def seek(self, *place):
+        return self.file.seek(*place)
+
+    def close(self):
+        self.closed = True
+
+
+@pytest.mark.parametrize("packed", [False, True])
+def test_no_file_is_closed_while_it_is_read(packed, tmp_path, monkeypatch):
+    """Else the next one that is opened has its number, and is read with a piece missing."""
+    path, opened = tmp_path / "log.csv", []
+    numbers = np.random.default_rng(1).integers(10**9, size=50_000)
+    rows = b"".join(b"%09d,0.5\n" % number for number in numbers) * 13
+
+    def watched(name):
+        opened.append(Watched(name))
+        return pa.PythonFile(opened[-1], mode="r")
+
+    path.write_bytes(b"time [s],gyro_x [rad/s]\n" + rows)
+    if packed:
+        path.write_bytes(gzip.compress(path.read_bytes(), 1))
+    monkeypatch.setattr(pa, "OSFile", watched)
+    reader = CsvReader.open(path)
+    for asked in (1, 3, None):
+        batches = reader.batches([0, 1], 0)
+        left = list(islice(batches, asked))
+        batches.close()
+        assert len(left) == (asked or 9)
+    time.sleep(0.1)  # for what might still be asked for
+    assert [file.late for file in opened] == [0, 0, 0]
 
 
 # Memory

@@ -167,12 +167,17 @@ class CsvReader(Reader):
         """The lines as they are in batches, and the share read so far.
 
         To leave out lines of comment takes as long as reading, so it is done only where need is.
+
+        Arrow's threads read ahead, and go on for a moment where no more is asked for: a file that
+        was closed under them would have them read from the next one that is opened, whose number
+        is the same, and that one would be read with a piece missing. The last of them closes it.
         """
-        with pa.OSFile(str(self.path)) as raw:
-            size = max(raw.size(), 1)
-            stream = pa.CompressedInputStream(raw, "gzip") if is_gzip(self.path) else raw
-            for batch in pacsv.open_csv(stream, read, parse, convert):
-                yield batch, 1.0 if raw.closed else raw.tell() / size
+        raw = pa.OSFile(str(self.path))
+        size = max(raw.size(), 1)
+        stream = pa.CompressedInputStream(raw, "gzip") if is_gzip(self.path) else raw
+        for batch in pacsv.open_csv(stream, read, parse, convert):
+            yield batch, 1.0 if raw.closed else raw.tell() / size
+        raw.close()
 
     def at_end(self) -> tuple[Finding, ...]:
         """That the last lines were left out, and rows between whole ones."""
