@@ -44,7 +44,11 @@ from pyimu.identification.reference.positions import positions_wanted, unshown
 from pyimu.identification.reference.told import told
 from pyimu.identification.reference.turned import with_rest_of_turn, with_turned_force
 from pyimu.identification.reference.turns import turn_trials
-from pyimu.identification.reference.unfiltered import unfiltered_logs, with_sharp_places
+from pyimu.identification.reference.unfiltered import (
+    unfiltered_logs,
+    unplayed_logs,
+    with_sharp_places,
+)
 from pyimu.identification.reference.upright import with_upright_places
 from pyimu.identification.result import Closed
 from pyimu.identification.rivals.clock_or_effect import likelier_clock
@@ -154,15 +158,16 @@ def close(
 def _on_time(
     sensor: Sensor, logs: list[Recording], others: list[Recording], latitude: float | None
 ) -> tuple[list[Recording], list[Recording], Together]:
-    """The logs with references that do not lag and are not smoothed, at samples of their own where
-    rows hold these, and the gyro's trials of them.
+    """The logs with references behind the play of gears, that do not lag and are not smoothed, at
+    samples of their own where rows hold these, and the gyro's trials of them.
     """
     logs, others = list(map(held_apart, logs)), list(map(held_apart, others))
     turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
-    unfiltered = unfiltered_logs(turning, sensor, logs, others)
-    if unfiltered is not None:
-        logs, others = unfiltered
-        turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
+    for undone in (unplayed_logs, partial(unfiltered_logs, sensor=sensor)):
+        found = undone(turning, logs=(logs, others))
+        if found is not None:
+            logs, others = found
+            turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
     clocks, both = clocks_of(turning), [*turning[0], *turning[1]]
     placed = (
         [with_sharp_places(with_upright_places(r, both), clocks, latitude) for r in some]

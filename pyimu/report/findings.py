@@ -9,6 +9,7 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.recording.header import some_of
+from pyimu.recording.reference.play import OF_JOINT
 from pyimu.report.meaning import MEANING
 from pyimu.report.numbers import number, quantity
 
@@ -88,7 +89,7 @@ def _numbers(column: str, details: Mapping[str, Any]) -> list[str]:
         )
         if sample and name in SAMPLE:
             text = quantity(float(value), sample)
-        elif name in ANGLES:
+        elif name in ANGLES or name.endswith(OF_JOINT):
             text = quantity(float(value), "rad")
         elif name == "white_noise":
             text = quantity(float(value), "rad/sqrt(s)")

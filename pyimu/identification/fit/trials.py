@@ -21,6 +21,7 @@ from pyimu.recording.quality.resolution import last_digit, least_relevant
 from pyimu.recording.recording import Recording, filled
 from pyimu.recording.reference.filled import FILLED
 from pyimu.recording.reference.force import reference_force
+from pyimu.recording.reference.play import PLAY
 from pyimu.recording.reference.rate import reference_rate
 from pyimu.recording.reference.stamps import at_times, evenly_sampled
 from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
@@ -274,7 +275,7 @@ def _trial(
         if rows.any():
             findings += (Finding(what, kind, int(rows.sum())),)
     other = () if recording.reference is None else recording.reference.findings
-    findings += tuple(f for f in other if f.kind in (*OWN_LAG, SMOOTHED, LATE, SIDEWAYS))
+    findings += tuple(f for f in other if f.kind in (*OWN_LAG, PLAY, SMOOTHED, LATE, SIDEWAYS))
     if recording.reference is not None:
         # Stamps that a reference does not share.
         findings += tuple(filter(came_in_bursts, recording.findings))

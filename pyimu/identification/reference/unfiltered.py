@@ -1,40 +1,54 @@
-"""Logs with references as they were before a filter that they are behind."""
+"""Logs with references behind the play of a gear that they were taken before, and before a filter
+that they are behind.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.trials import accel_trial
 from pyimu.identification.reference.adapts import without_adapting
-from pyimu.identification.reference.behind import without_filter
+from pyimu.identification.reference.behind import Undo, without_filter
 from pyimu.identification.reference.behind_places import without_filter_of_places
 from pyimu.identification.reference.place import is_differentiated
+from pyimu.identification.reference.play import unplayed
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.force import has_places
 
+Logs = tuple[list[Recording], list[Recording]]
+"""Those to fit, and those to judge by."""
+
+
+def unplayed_logs(trials: tuple[list[Trial], list[Trial]], logs: Logs) -> Logs | None:
+    """``logs`` with references behind the play of a gear; None where none was taken before one.
+
+    ``trials`` are the gyro's, as of ``unfiltered_logs``.
+    """
+    return _undone(trials, unplayed, logs)
+
 
 def unfiltered_logs(
-    trials: tuple[list[Trial], list[Trial]],
-    sensor: Sensor,
-    logs: list[Recording],
-    others: list[Recording],
-) -> tuple[list[Recording], list[Recording]] | None:
-    """``logs`` and ``others`` with references that are behind no filter; None where none was.
+    trials: tuple[list[Trial], list[Trial]], sensor: Sensor, logs: Logs
+) -> Logs | None:
+    """``logs`` with references that are behind no filter; None where none was.
 
     ``trials`` are the gyro's of both, their references on the sensor's clock. A reference that was
     behind a filter has a finding that says so.
     """
-    each = (t for ts in trials for t in ts)
-    found = {t.name: without_adapting(t) or without_filter(t, sensor) for t in each}
+    return _undone(trials, lambda t: without_adapting(t) or without_filter(t, sensor), logs)
+
+
+def _undone(
+    trials: tuple[list[Trial], list[Trial]], find: Callable[[Trial], Undo | None], logs: Logs
+) -> Logs | None:
+    found = {t.name: find(t) for ts in trials for t in ts}
     undo = {name: one for name, one in found.items() if one is not None}
     if not undo:
         return None
-    fitted, apart = (
-        [undo[r.name](r) if r.name in undo else r for r in each] for each in (logs, others)
-    )
+    fitted, apart = ([undo[r.name](r) if r.name in undo else r for r in each] for each in logs)
     return fitted, apart
 
 

@@ -12,10 +12,11 @@ from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.scales import POSITIONS_SCALE
 from pyimu.identification.search.forward import Investigation
+from pyimu.recording.reference.play import OF_JOINT, PLAY
 from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
 from pyimu.recording.reference.unlagged import ADAPTS, HIGHEST, LAG
 from pyimu.recording.reference.unsmoothed import SMOOTHED
-from pyimu.report.numbers import joined, number, with_limits
+from pyimu.report.numbers import joined, number, quantity, with_limits
 
 FEW = 3
 """Up to so many logs are said each by itself."""
@@ -51,9 +52,9 @@ def taken_out(found: Mapping[str, Investigation], heading: Heading) -> str:
 
 
 def undone(findings: Sequence[Finding]) -> str:
-    """Which references, or positions of them, lag as behind a filter, or were smoothed, which
-    positions are late beside attitudes, or of another scale, and which have a vertical that is not
-    z; nothing where none is.
+    """Which references, or positions of them, were taken before a gear with play, lag as behind a
+    filter, or were smoothed, which positions are late beside attitudes, or of another scale, and
+    which have a vertical that is not z; nothing where none is.
     """
     by_kind = {
         (kind, what): [
@@ -119,6 +120,20 @@ def _smooth(smoothed: list[dict], what: str) -> str:
     return f"{_of(what, smoothed)} were smoothed; {those} of {most['recording']} {by}"
 
 
+def _before_play(found: list[dict], what: str) -> str:
+    gears = "was taken before a gear" if len(found) == 1 else "were taken before gears"
+    plays: dict[str, float] = {}
+    for name, width in (item for f in found for item in f.items()):
+        if name.endswith(OF_JOINT):
+            joint = (
+                name.removesuffix(OF_JOINT).replace("_", " ").replace("vertical", "the vertical")
+            )
+            plays[joint] = max(plays.get(joint, 0.0), width)
+    up_to = "up to " if len(found) > 1 else ""
+    about = [f"{up_to}{quantity(w, 'rad', 2)} about {name}" for name, w in plays.items()]
+    return f"{_of(what, found)} {gears} with a play of {joined(about)}"
+
+
 def _late(found: list[dict], what: str) -> str:
     most = max((f["late"] for f in found), key=abs)
     up_to, side = "up to " if len(found) > 1 else "", "late" if most > 0.0 else "early"
@@ -144,6 +159,7 @@ PLACES = {"ref_east": "positions", "ref_velocity": "velocities"}
 """By the columns of findings, what of a reference they are about, unless its attitudes or rates."""
 
 SAID: dict[str, Callable[[list[dict], str], str]] = {
+    PLAY: _before_play,
     LAG: _lagging,
     ADAPTS: _adapting,
     SMOOTHED: _smooth,

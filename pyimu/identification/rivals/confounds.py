@@ -66,7 +66,7 @@ def _beside_clock(e: Effect, sensor: Sensor) -> str:
         f"it is told by how it damps what is quick; its delay, {_delay_of(e, sensor)}, is one with "
         "the reference's clock, which was fitted beside it; samples that were filtered without "
         "delay, or a reference that is turned ahead of its time, would show the same, and so would "
-        "one that says what the body was told to do"
+        "one that says what the body was told to do, or is taken before a gear that gives"
     )
 
 
