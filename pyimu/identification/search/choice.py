@@ -301,12 +301,12 @@ def _takes_it_for_noise(fitted: Fit) -> bool:
     return coloured and wander_is_declared(fitted)
 
 
-def promises(c: Screened, start: Fit, current: Fit) -> bool:
-    """Whether a candidate explains anything by the noise that a model has, which is not fitted anew
-    to what it leaves: some steps from where it ``start``s tell, and a search to its end takes ten
-    times as long where there is nothing to find.
+def promise(c: Screened, start: Fit, current: Fit) -> float:
+    """Log-likelihood [nat] that a candidate gains by the noise that a model has, which is not
+    fitted anew to what it leaves: some steps from where it ``start``s tell, and a search to its end
+    takes ten times as long where there is nothing to find.
     """
-    return advantage_by_its_noise(_with(start, c), current) > 0.0
+    return advantage_by_its_noise(_with(start, c), current)
 
 
 def _with(current: Fit, c: Screened) -> Fit:

@@ -27,7 +27,7 @@ from pyimu.identification.search.choice import (
     Refined,
     ahead,
     plainest_form,
-    promises,
+    promise,
     refine,
     share_left,
 )
@@ -79,12 +79,9 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     shown = damping(wide, by_sensor=True)
     if not _damps_more(shown, gate):
         return None
-    starts = {e.name: [_from(wide, e, delay) for delay in STARTS] for e in forms}
-    if not any(promises(c, start, wide) for one in starts.values() for start, c in one):
-        return None
-    found = [_best(one) for one in starts.values()]
+    found = [_found(wide, e) for e in forms]
     above = gate + np.log(len(forms) * len(STARTS))
-    found = [r for r in found if r.gain > above and _is_seen(r, wide, shown[0])]
+    found = [r for r in found if r is not None and r.gain > above and _is_seen(r, wide, shown[0])]
     if not found:
         return None
     best = plainest_form(found)
@@ -168,10 +165,18 @@ def apart(trial: Trial) -> Trial:
     return replace(trial, u=u, clock=whole, segments=kept or trial.segments)
 
 
-def _best(starts: list[tuple[Fit, Screened]]) -> Refined:
-    """An effect beside the clocks, fitted from where it explains most."""
-    found = (refine(start, c) for start, c in starts)
-    return max((r if _damps(r) else replace(r, gain=-np.inf) for r in found), key=lambda r: r.gain)
+def _found(wide: Fit, e: Effect) -> Refined | None:
+    """An effect beside the clocks, fitted from where it promises most; None where it promises
+    nothing, or rings.
+    """
+    starts = [_from(wide, e, delay) for delay in STARTS]
+    promised = [promise(c, start, wide) for start, c in starts]
+    best = int(np.argmax(promised))
+    if promised[best] <= 0.0:
+        return None
+    start, c = starts[best]
+    found = refine(start, c)
+    return found if _damps(found) else None
 
 
 def _from(current: Fit, e: Effect, delay: float) -> tuple[Fit, Screened]:
