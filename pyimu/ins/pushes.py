@@ -1,11 +1,17 @@
-"""Where a body that looks still is pushed: so gently that no window of its samples shows it."""
+"""Where a body that looks still is pushed: so gently that no window of its samples shows it.
+
+A stretch that looks still is parted into pieces over which the force stays or changes evenly, a
+constant or a line beside white noise on each axis, by the choice that is likeliest where each mean
+and each slope costs the same (Jackson et al. 2005, An algorithm for optimal partitioning of data on
+an interval). What stays is at rest, at a constant speed or in an even push; that it does not tell.
+"""
 
 from __future__ import annotations
 
-import numpy as np
-from scipy.ndimage import maximum_filter1d
+from dataclasses import dataclass
 
-from pyimu.recording.clock import runs
+import numpy as np
+from numba import njit
 
 STEADY_GATE = 25.0
 """Squared difference of mean rate and bias over its variance, beyond which a still window is one of
@@ -20,41 +26,42 @@ MOMENT, SETTLED = 1.5, 10.0
 """s; for less the force of a body that drives may be that at rest, between speeding up and slowing
 down, and for longer it has no other one."""
 
-LASTING = 5.0
-"""s; of the longest means by which a push is looked for."""
-
-WHOLE = 4
-"""Moments that a stretch is longer than, in which a push is looked for that lasts: means over a
-moment show it, and lose a moment at either end."""
-
 LEAST_SPEED, COMES_UP = 0.03, 5.0
 """m/s; a body that settles after a stop shows less. Assumed. And s, over which it may come up."""
 
-CANDIDATES = 200
-"""So many places of a still stretch at most are tried for its rest."""
-
 LEAST = 2 * MOMENT
-"""s; of what stays at another force, at least, that may be the rest. Assumed."""
+"""s; of what stays at a force, at least, between two pushes. Assumed."""
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """Blocks ``start`` to ``stop`` of a stretch, whose force stays at a ``mean`` (3,) m/s^2 or not."""
+
+    start: int
+    stop: int
+    mean: np.ndarray
+    stays: bool
 
 
 def unpushed(force: np.ndarray, noise: np.ndarray, rows: int, period: float) -> np.ndarray:
     """Marks (n,) of a still stretch, less where its ``force`` (n, 3) m/s^2 of so much ``noise``
-    (3,) changes from one mean to another. Each run of them stays at one force: at rest, at a
-    constant speed or in an even push, which by itself it does not tell.
+    (3,) changes from one mean to another, as blocks of half of ``rows`` show it. Each run of them
+    stays at one force.
     """
-    marks, waiting = np.zeros(len(force), dtype=bool), [(0, len(force))]
-    while waiting:
-        start, stop = waiting.pop()
-        alike, apart = _alike(force[start:stop], noise, rows, period)
-        for a, b in runs(alike):
-            at_end = start + a == 0 or start + b == len(force)
-            marks[start + a : start + b] = at_end or (b - a) * period >= LEAST
-        others = [(start + a, start + b) for a, b in runs(apart)]
-        waiting += [(a, b) for a, b in others if LEAST <= (b - a) * period and b - a < stop - start]
-    for start, stop in runs(marks):
-        own = force[start:stop]
-        marks[start : start + _gained(own[::-1], noise, period)] = False
-        marks[stop - _gained(own, noise, period) : stop] = False
+    block = max(1, rows // 2)
+    means, bounds = _means(force, block)
+    spread = noise**2 / block + (FORCE_STAYS / 3) ** 2
+    marks = np.zeros(len(force), dtype=bool)
+    for piece in _joined(_pieces(means, spread, FOLLOWED / (block * period)), spread):
+        # A push begins and ends within the blocks beside it.
+        first = bounds[piece.start + (piece.start > 0)]
+        last = bounds[piece.stop - (piece.stop < len(means))]
+        at_end = piece.start == 0 or piece.stop == len(means)
+        if piece.stays and last > first and (at_end or (last - first) * period >= LEAST):
+            marks[first:last] = True
+            own = force[first:last]
+            marks[first : first + _gained(own[::-1], noise, period)] = False
+            marks[last - _gained(own, noise, period) : last] = False
     return marks
 
 
@@ -73,84 +80,73 @@ def _gained(force: np.ndarray, noise: np.ndarray, period: float) -> int:
     return count - int(np.flatnonzero(np.append(0.0, size) <= least / 2)[-1])
 
 
-def _alike(
-    force: np.ndarray, noise: np.ndarray, rows: int, period: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Marks (n,) of what of a stretch has the ``force`` (n, 3) that most of it has, by means over
-    ``rows`` and over longer ones, and of what has another; neither where one becomes the other.
-
-    A body that speeds up gently does so for a second or more, and the change within a window is
-    lost in noise: the means of blocks of ``rows`` show it. Where they are as before for a moment
-    alone, between speeding up and slowing down, it drives on.
+def _means(force: np.ndarray, block: int) -> tuple[np.ndarray, np.ndarray]:
+    """Means (m, 3) of forces (n, 3) over blocks, the last with what is left, and their first rows
+    and n (m + 1,).
     """
-    lengths = [rows, *(max(rows, round(s / period)) for s in (MOMENT, LASTING))]
-    moment = lengths[1] if len(force) > WHOLE * lengths[1] else rows
-    at, rest = _rest_among(force, noise, moment, period)
-    own, apart = np.ones(len(force), dtype=bool), np.zeros(len(force), dtype=bool)
-    for long in lengths:
-        for start, stop in runs(own):
-            if long == rows or stop - start > WHOLE * long:
-                part = slice(start, stop)
-                alike = _as_before(force[part], noise, long, period, at - start, rest)
-                # A push begins and ends within the blocks beside it.
-                beside = 2 * min(long, lengths[1]) + 1
-                own[part] = ~maximum_filter1d(~alike, beside, mode="nearest")
-                apart[part] = ~alike
-    return own, apart
+    bounds = block * np.arange(max(1, len(force) // block) + 1)
+    bounds[-1] = len(force)
+    return np.add.reduceat(force, bounds[:-1], axis=0) / np.diff(bounds)[:, None], bounds
 
 
-def _means(force: np.ndarray, rows: int) -> tuple[np.ndarray, np.ndarray]:
-    """Means (m, 3) of forces (n, 3) over blocks of ``rows``, the last with what is left, and of
-    how many (m,) each is.
+def _pieces(means: np.ndarray, spread: np.ndarray, longest: float) -> list[_Piece]:
+    """The pieces of up to so many means (m, 3), of the variance ``spread`` (3,), that are likeliest.
+
+    A line that changes by less than ``FORCE_STAYS`` stays.
     """
-    starts = rows * np.arange(max(1, len(force) // rows))
-    counts = np.diff(np.append(starts, len(force)))
-    return np.add.reduceat(force, starts, axis=0) / counts[:, None], counts
+    scaled = (means - means.mean(axis=0)) / np.sqrt(spread)
+    begins, slopes = _parted(scaled, max(3, round(longest)), STEADY_GATE + 3)
+    pieces, stop = [], len(means)
+    while stop > 0:
+        start = int(begins[stop])
+        change = slopes[stop] * np.sqrt(spread) * (stop - start)
+        stays = float(np.linalg.norm(change)) <= FORCE_STAYS
+        pieces.append(_Piece(start, stop, means[start:stop].mean(axis=0), stays))
+        stop = start
+    return pieces[::-1]
 
 
-def _spread(noise: np.ndarray, rows: int) -> float:
-    """(m/s^2)^2; variance of an axis of the difference of two means over ``rows`` of a rest."""
-    return (FORCE_STAYS / 3) ** 2 + 2 * float(np.mean(noise**2)) / rows
-
-
-def _rest_among(
-    force: np.ndarray, noise: np.ndarray, rows: int, period: float
-) -> tuple[int, np.ndarray]:
-    """At which row of a stretch it may rest, and its force (3,) there: of moments that are alike
-    that whose force most others have. A run may begin in the end of a push, and have another's top
-    in its middle.
+@njit(cache=True)
+def _parted(values: np.ndarray, longest: int, gate: float) -> tuple[np.ndarray, np.ndarray]:
+    """For each count of the first values (m, 3), of unit variance, where the last piece of their
+    likeliest parting begins (m + 1,) and its slope on each axis (m + 1, 3), 0 where it stays.
     """
-    (means, _), spread = _means(force, rows), _spread(noise, rows)
-    count = min(max(2, round(MOMENT / (rows * period))), len(means))
-    starts = np.unique(np.linspace(0, len(means) - count, CANDIDATES).astype(int))
-    shared = np.empty(len(starts))
-    for i, k in enumerate(starts):
-        own = means[k : k + count]
-        off = np.sum((means - own.mean(axis=0)) ** 2, axis=1)
-        alike = np.all(off[k : k + count] <= (STEADY_GATE + 3) * spread / 2)
-        shared[i] = np.sum(np.exp(-off / (2 * spread))) if alike else 0.0
-    calm = int(starts[np.argmax(shared)])
-    # its first may be in the end of a push
-    return calm * rows, np.median(means[calm : calm + count], axis=0)
+    n, axes = values.shape
+    best, begins, slopes = np.zeros(n + 1), np.zeros(n + 1, dtype=np.int64), np.zeros((n + 1, axes))
+    for stop in range(1, n + 1):
+        best[stop] = np.inf
+        total, moment, square = np.zeros(axes), np.zeros(axes), 0.0
+        for start in range(stop - 1, max(stop - longest, 0) - 1, -1):
+            k = stop - start
+            level, line = 0.0, 0.0
+            for a in range(axes):
+                total[a] += values[start, a]
+                moment[a] += k * values[start, a]
+                square += values[start, a] ** 2
+                level += total[a] ** 2 / k
+                line += (moment[a] - (k + 1) / 2 * total[a]) ** 2
+            cost = best[start] + square - level + gate
+            if cost < best[stop]:
+                best[stop], begins[stop], slopes[stop] = cost, start, 0.0
+            spread = k * (k**2 - 1) / 12
+            if k > 2 and cost + gate - line / spread < best[stop]:
+                best[stop], begins[stop] = cost + gate - line / spread, start
+                for a in range(axes):
+                    slopes[stop, a] = ((k + 1) / 2 * total[a] - moment[a]) / spread
+    return begins, slopes
 
 
-def _as_before(
-    force: np.ndarray, noise: np.ndarray, rows: int, period: float, at: int, rest: np.ndarray
-) -> np.ndarray:
-    """Marks (n,) of the blocks of ``rows`` whose mean is that of a ``rest`` (3,) at row ``at``,
-    followed over ``FOLLOWED`` to either side.
-    """
-    (means, counts), limit = _means(force, rows), (STEADY_GATE + 3) * _spread(noise, rows)
-    calm, share = int(np.clip(at // rows, 0, len(means) - 1)), min(rows * period / FOLLOWED, 1.0)
-    alike = np.empty(len(means), dtype=bool)
-    for order in (range(calm, -1, -1), range(calm, len(means))):
-        follows = rest
-        for k in order:
-            alike[k] = np.sum((means[k] - follows) ** 2) <= limit
-            if alike[k]:
-                follows = follows + (means[k] - follows) * share
-    short = max(2, round(MOMENT / (rows * period)))
-    for start, stop in runs(alike):
-        if start > 0 and stop < len(alike) and stop - start < short:
-            alike[start:stop] = False
-    return np.repeat(alike, counts)
+def _joined(pieces: list[_Piece], spread: np.ndarray) -> list[_Piece]:
+    """The pieces, where two that follow each other and stay at one force are one."""
+    found = pieces[:1]
+    for piece in pieces[1:]:
+        last = found[-1]
+        counts = last.stop - last.start, piece.stop - piece.start
+        variance = (FORCE_STAYS / 3) ** 2 + spread * (1 / counts[0] + 1 / counts[1])
+        off = float(np.sum((piece.mean - last.mean) ** 2 / variance))
+        if last.stays and piece.stays and off <= STEADY_GATE + 3:
+            # the force of the last of them is what the next one is held to
+            found[-1] = _Piece(last.start, piece.stop, piece.mean, True)
+        else:
+            found.append(piece)
+    return found
