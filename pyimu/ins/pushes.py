@@ -29,6 +29,9 @@ down, and for longer it has no other one."""
 LEAST_SPEED, COMES_UP = 0.03, 5.0
 """m/s; a body that settles after a stop shows less. Assumed. And s, over which it may come up."""
 
+import os
+GATE, SLOPE = (float(v) for v in os.environ.get('GATES','28,28').split(','))
+
 LEAST = 2 * MOMENT
 """s; of what stays at a force, at least, between two pushes. Assumed."""
 
@@ -95,7 +98,7 @@ def _pieces(means: np.ndarray, spread: np.ndarray, longest: float) -> list[_Piec
     A line that changes by less than ``FORCE_STAYS`` stays.
     """
     scaled = (means - means.mean(axis=0)) / np.sqrt(spread)
-    begins, slopes = _parted(scaled, max(3, round(longest)), STEADY_GATE + 3)
+    begins, slopes = _parted(scaled, max(3, round(longest)), GATE, SLOPE)
     pieces, stop = [], len(means)
     while stop > 0:
         start = int(begins[stop])
@@ -107,7 +110,7 @@ def _pieces(means: np.ndarray, spread: np.ndarray, longest: float) -> list[_Piec
 
 
 @njit(cache=True)
-def _parted(values: np.ndarray, longest: int, gate: float) -> tuple[np.ndarray, np.ndarray]:
+def _parted(values: np.ndarray, longest: int, gate: float, slope: float) -> tuple[np.ndarray, np.ndarray]:
     """For each count of the first values (m, 3), of unit variance, where the last piece of their
     likeliest parting begins (m + 1,) and its slope on each axis (m + 1, 3), 0 where it stays.
     """
@@ -129,8 +132,8 @@ def _parted(values: np.ndarray, longest: int, gate: float) -> tuple[np.ndarray, 
             if cost < best[stop]:
                 best[stop], begins[stop], slopes[stop] = cost, start, 0.0
             spread = k * (k**2 - 1) / 12
-            if k > 2 and cost + gate - line / spread < best[stop]:
-                best[stop], begins[stop] = cost + gate - line / spread, start
+            if k > 2 and cost + slope - line / spread < best[stop]:
+                best[stop], begins[stop] = cost + slope - line / spread, start
                 for a in range(axes):
                     slopes[stop, a] = ((k + 1) / 2 * total[a] - moment[a]) / spread
     return begins, slopes

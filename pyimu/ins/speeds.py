@@ -117,7 +117,7 @@ class _Since:
             self.velocity + self.turn @ change.velocity,
             self.variance + drift**2 + change.variance,
             self.turn @ change.turn,
-            self.score + pushed + min(max((3 - change.apart) / 2, UNLIKELY), 0.0),
+            self.score + pushed + _of_force(change),
             self.moved or bool(moves) or change.angle > TURNED,
         )
 
@@ -212,6 +212,7 @@ def _rests_of(
     known = [c.speed for c in changes.values() if c.speed**2 > (STEADY_GATE + 3) * c.variance]
     top = max(known or speeds, default=LEAST_SPEED)
     best = [(score, -1) for score in _at_first(stretches, changes, period)]
+    stays = list(range(len(stretches)))
     # Behind the last stretch that a rest tells of, it says the same of all.
     ends, behind = [], [(-np.inf, -1)] * (len(stretches) + 1)
     for at in range(len(stretches)):
@@ -222,14 +223,24 @@ def _rests_of(
         ends.append(best[at][0] + since[last].score)
         behind[last + 1] = max(behind[last + 1], (ends[at] + REST, at))
         for k in range(at + 1, last + 1):
-            score = max(UNLIKELY, since[k].rests(top)) if k in since else UNLIKELY
-            best[k] = max(best[k], (best[at][0] + score + REST, at))
+            score = since[k].rests(top) if k in since else UNLIKELY
+            unmoved = k in since and not since[k].moved
+            if unmoved and (stays[at], k) in changes:
+                score = min(score, _of_force(changes[stays[at], k]))
+            way = best[at][0] + max(score, UNLIKELY) + REST, at
+            if way > best[k]:
+                best[k], stays[k] = way, stays[at] if unmoved else k
     at = int(np.argmax(ends)) if np.isfinite(ends).any() else -1
     found, score = set(), max(ends)
     while at >= 0:
         found.add(at)
         at = best[at][1]
     return found, score
+
+
+def _of_force(change: Change) -> float:
+    """Log of how likely it is that neither end of a change is pushed, by their forces."""
+    return min(max((3 - change.apart) / 2, UNLIKELY), 0.0)
 
 
 def _since(
