@@ -1,9 +1,10 @@
 """Where a body that looks still is pushed: so gently that no window of its samples shows it.
 
-A stretch that looks still is parted into pieces over which the force stays or changes evenly, a
-constant or a line beside white noise on each axis, by the choice that is likeliest where each mean
-and each slope costs the same (Jackson et al. 2005, An algorithm for optimal partitioning of data on
-an interval). What stays is at rest, at a constant speed or in an even push; that it does not tell.
+A stretch that looks still is parted into pieces over which the force stays or changes evenly: a
+constant or a line on each axis, beside white noise. Of all partings that is taken which is
+likeliest where each mean and each slope has its price (Jackson et al. 2005, An algorithm for
+optimal partitioning of data on an interval). What stays is at rest, at a constant speed or in an
+even push; that it does not tell.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
+
+from pyimu.numerics.laws import chi2
 
 STEADY_GATE = 25.0
 """Squared difference of mean rate and bias over its variance, beyond which a still window is one of
@@ -29,8 +32,9 @@ down, and for longer it has no other one."""
 LEAST_SPEED, COMES_UP = 0.03, 5.0
 """m/s; a body that settles after a stop shows less. Assumed. And s, over which it may come up."""
 
-import os
-GATE, SLOPE = (float(v) for v in os.environ.get('GATES','28,28').split(','))
+SLOPE = float(chi2.isf(1e-3, 3))
+"""Twice the log of how much likelier than a mean a line must be; that of a rest is so once in a
+thousand. Another mean must be so by ``STEADY_GATE``, as it may begin anywhere."""
 
 LEAST = 2 * MOMENT
 """s; of what stays at a force, at least, between two pushes. Assumed."""
@@ -38,7 +42,7 @@ LEAST = 2 * MOMENT
 
 @dataclass(frozen=True)
 class _Piece:
-    """Blocks ``start`` to ``stop`` of a stretch, whose force stays at a ``mean`` (3,) m/s^2 or not."""
+    """Blocks ``start`` to ``stop`` of a stretch, their ``mean`` (3,) m/s^2 and whether it stays."""
 
     start: int
     stop: int
@@ -93,12 +97,11 @@ def _means(force: np.ndarray, block: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _pieces(means: np.ndarray, spread: np.ndarray, longest: float) -> list[_Piece]:
-    """The pieces of up to so many means (m, 3), of the variance ``spread`` (3,), that are likeliest.
-
-    A line that changes by less than ``FORCE_STAYS`` stays.
+    """The likeliest pieces, of so many at the ``longest``, of means (m, 3) whose noise has the
+    variance ``spread`` (3,). A line that changes by less than ``FORCE_STAYS`` stays.
     """
     scaled = (means - means.mean(axis=0)) / np.sqrt(spread)
-    begins, slopes = _parted(scaled, max(3, round(longest)), GATE, SLOPE)
+    begins, slopes = _parted(scaled, max(3, round(longest)), STEADY_GATE, SLOPE)
     pieces, stop = [], len(means)
     while stop > 0:
         start = int(begins[stop])
@@ -110,7 +113,9 @@ def _pieces(means: np.ndarray, spread: np.ndarray, longest: float) -> list[_Piec
 
 
 @njit(cache=True)
-def _parted(values: np.ndarray, longest: int, gate: float, slope: float) -> tuple[np.ndarray, np.ndarray]:
+def _parted(
+    values: np.ndarray, longest: int, gate: float, slope: float
+) -> tuple[np.ndarray, np.ndarray]:
     """For each count of the first values (m, 3), of unit variance, where the last piece of their
     likeliest parting begins (m + 1,) and its slope on each axis (m + 1, 3), 0 where it stays.
     """

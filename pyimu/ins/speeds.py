@@ -117,7 +117,7 @@ class _Since:
             self.velocity + self.turn @ change.velocity,
             self.variance + drift**2 + change.variance,
             self.turn @ change.turn,
-            self.score + pushed + _of_force(change),
+            self.score + pushed + min(max((3 - change.apart) / 2, UNLIKELY), 0.0),
             self.moved or bool(moves) or change.angle > TURNED,
         )
 
@@ -212,6 +212,7 @@ def _rests_of(
     known = [c.speed for c in changes.values() if c.speed**2 > (STEADY_GATE + 3) * c.variance]
     top = max(known or speeds, default=LEAST_SPEED)
     best = [(score, -1) for score in _at_first(stretches, changes, period)]
+    # Where a rest that the body has not left since begins: small steps of its force add up.
     stays = list(range(len(stretches)))
     # Behind the last stretch that a rest tells of, it says the same of all.
     ends, behind = [], [(-np.inf, -1)] * (len(stretches) + 1)
@@ -223,10 +224,10 @@ def _rests_of(
         ends.append(best[at][0] + since[last].score)
         behind[last + 1] = max(behind[last + 1], (ends[at] + REST, at))
         for k in range(at + 1, last + 1):
-            score = since[k].rests(top) if k in since else UNLIKELY
             unmoved = k in since and not since[k].moved
-            if unmoved and (stays[at], k) in changes:
-                score = min(score, _of_force(changes[stays[at], k]))
+            score = since[k].rests(top) if k in since else UNLIKELY
+            if unmoved and _is_pushed(changes.get((stays[at], k))):
+                score = UNLIKELY
             way = best[at][0] + max(score, UNLIKELY) + REST, at
             if way > best[k]:
                 best[k], stays[k] = way, stays[at] if unmoved else k
@@ -238,9 +239,9 @@ def _rests_of(
     return found, score
 
 
-def _of_force(change: Change) -> float:
-    """Log of how likely it is that neither end of a change is pushed, by their forces."""
-    return min(max((3 - change.apart) / 2, UNLIKELY), 0.0)
+def _is_pushed(change: Change | None) -> bool:
+    """Whether the forces of both ends of a change are too far apart for chance."""
+    return change is not None and change.apart > STEADY_GATE + 3
 
 
 def _since(
