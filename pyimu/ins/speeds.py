@@ -101,7 +101,9 @@ class _Stretch:
 class _Since:
     """What is known of the velocity at a stretch since the last rest: ``velocity`` (3,) m/s in axes
     of that rest, its ``variance``, the matrix ``turn`` (3, 3) to these axes, the log of how likely
-    what lies in between is, its ``score``, and whether the body has ``moved``.
+    what lies in between is, its ``score``, and whether the body has ``moved``. Where it has not
+    since the stretch before, it rests or drives as it did there, and another choice is unlikely by
+    the log ``tied``; the ``first`` follows the rest itself.
     """
 
     velocity: np.ndarray
@@ -109,16 +111,24 @@ class _Since:
     turn: np.ndarray
     score: float
     moved: bool = False
+    tied: float = 0.0
+    first: bool = False
 
-    def then(self, change: Change, drift: float, pushed: float) -> _Since:
-        """After a change, with a ``drift`` m/s during the stretch before it."""
+    def then(self, change: Change, drift: float, score: float, top: float, first: bool) -> _Since:
+        """After a change of so much ``score``, with a ``drift`` m/s during the stretch before it,
+        of a body of up to ``top`` m/s.
+        """
         moves = change.most**2 > LEAST_SPEED**2 + (STEADY_GATE + 3) * change.variance
+        moves = bool(moves) or change.angle > TURNED
+        as_before = 0.0 if moves else max(_beside_drives(change.velocity, change.variance, top), 0)
         return _Since(
             self.velocity + self.turn @ change.velocity,
             self.variance + drift**2 + change.variance,
             self.turn @ change.turn,
-            self.score + pushed + min(max((3 - change.apart) / 2, UNLIKELY), 0.0),
-            self.moved or bool(moves) or change.angle > TURNED,
+            self.score + score + min(max((3 - change.apart) / 2, UNLIKELY), 0.0),
+            self.moved or moves,
+            as_before,
+            first,
         )
 
     @property
@@ -130,21 +140,33 @@ class _Since:
         """Log of how likely a rest is, with that velocity left, beside a drive of up to ``top``
         m/s. Where the body has not moved it rests or drives as it did before.
         """
+        score = self.score - (0.0 if self.first else self.tied)
         if not self.moved:
-            return self.score
-        of_size = 1.5 * float(np.log(top**2 / (2 * np.pi * self._spread)))
-        if of_size <= 0:
-            return self.score
-        return self.score + max(of_size - self.off / 2, UNLIKELY)
+            return score
+        return score + max(_beside_drives(self.velocity, self.variance, top), UNLIKELY)
 
     @property
-    def _spread(self) -> float:
-        return self.variance + (LEAST_SPEED / 3) ** 2
+    def drives(self) -> float:
+        """Log of how likely a drive is, likewise."""
+        return -self.tied if self.first else 0.0
 
     @property
     def off(self) -> float:
         """Square of the velocity that is left over its variance."""
-        return float(self.velocity @ self.velocity) / self._spread
+        return _off(self.velocity, self.variance)
+
+
+def _off(velocity: np.ndarray, variance: float) -> float:
+    """Square of a velocity (3,) m/s that is left over its variance."""
+    return float(velocity @ velocity) / (variance + (LEAST_SPEED / 3) ** 2)
+
+
+def _beside_drives(velocity: np.ndarray, variance: float, top: float) -> float:
+    """Log of how likely a velocity (3,) m/s of such a variance is of none, beside one of up to
+    ``top`` m/s; 0 where it tells nothing.
+    """
+    of_size = 1.5 * float(np.log(top**2 / (2 * np.pi * (variance + (LEAST_SPEED / 3) ** 2))))
+    return of_size - _off(velocity, variance) / 2 if of_size > 0 else 0.0
 
 
 def driven(
@@ -196,7 +218,7 @@ def _unsure(
 ) -> Iterator[int]:
     """Which of the rests have a speed left since the one before, beyond ``UNSURE``."""
     for last, k in pairwise(sorted(rests)):
-        since = _since(last, stretches[: k + 1], changes, period)
+        since = _since(last, stretches[: k + 1], changes, period, LEAST_SPEED)
         if k in since and since[k].moved and since[k].off > UNSURE:
             yield k
 
@@ -219,7 +241,7 @@ def _rests_of(
     for at in range(len(stretches)):
         behind[at] = max(behind[at], behind[at - 1]) if at else behind[at]
         best[at] = (-np.inf, -1) if stretches[at].moves else max(best[at], behind[at])
-        since = _since(at, stretches, changes, period)
+        since = _since(at, stretches, changes, period, top)
         last = max(since)
         ends.append(best[at][0] + since[last].score)
         behind[last + 1] = max(behind[last + 1], (ends[at] + REST, at))
@@ -245,11 +267,16 @@ def _is_pushed(change: Change | None) -> bool:
 
 
 def _since(
-    at: int, stretches: list[_Stretch], changes: dict[tuple[int, int], Change], period: float
+    at: int,
+    stretches: list[_Stretch],
+    changes: dict[tuple[int, int], Change],
+    period: float,
+    top: float,
+    rested: bool = True,
 ) -> dict[int, _Since]:
-    """What is known of the velocity at each stretch after the rest ``at``, as long as something is,
-    by the likeliest choice of what is pushed in between. ``LEAST_SPEED`` and ``FORCE_STAYS`` are
-    limits, and count as three standard deviations.
+    """What is known of the velocity at each stretch after the rest ``at``, or a drive where it is
+    not ``rested``, as long as something is, by the likeliest choice of what is pushed in between.
+    ``LEAST_SPEED`` and ``FORCE_STAYS`` are limits, and count as three standard deviations.
     """
     found = {at: _Since(np.zeros(3), 0.0, np.eye(3), 0.0)}
     for k in range(at + 1, min(at + MOST_STRETCHES, len(stretches))):
@@ -258,8 +285,8 @@ def _since(
             if i in found and (i, k) in changes:
                 seconds = stretches[i].rows * period if i > at else 0.0
                 drift = min(FORCE_STAYS / 3 * seconds, found[i].most_drift)
-                pushed = _pushed(stretches[i + 1 : k], period)
-                ways.append(found[i].then(changes[i, k], drift, pushed))
+                score = _pushed(stretches[i + 1 : k], period) + found[i].drives
+                ways.append(found[i].then(changes[i, k], drift, score, top, i == at and rested))
         if ways:
             found[k] = max(ways, key=lambda way: way.score)
     return found
@@ -269,7 +296,7 @@ def _at_first(
     stretches: list[_Stretch], changes: dict[tuple[int, int], Change], period: float
 ) -> Iterator[float]:
     """Log of how likely it is that all that lies before each stretch is driven or pushed."""
-    since = _since(0, stretches, changes, period)
+    since = _since(0, stretches, changes, period, LEAST_SPEED, rested=False)
     yield 0.0
     for at in range(1, len(stretches)):
         driven = since[at].score if at in since else UNLIKELY
