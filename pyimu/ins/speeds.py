@@ -158,15 +158,20 @@ class _Since:
 
 def _off(velocity: np.ndarray, variance: float) -> float:
     """Square of a velocity (3,) m/s that is left over its variance."""
-    return float(velocity @ velocity) / (variance + (LEAST_SPEED / 3) ** 2)
+    return float(velocity @ velocity) / _spread(variance)
+
+
+def _spread(variance: float) -> float:
+    return variance + (LEAST_SPEED / 3) ** 2
 
 
 def _beside_drives(velocity: np.ndarray, variance: float, top: float) -> float:
-    """Log of how likely a velocity (3,) m/s of such a variance is of none, beside one of up to
-    ``top`` m/s; 0 where it tells nothing.
+    """Log of how likely a velocity (3,) m/s of such a variance is of a rest, beside a drive of up
+    to ``top`` m/s: normally distributed with the variance of what is anywhere within that.
     """
-    of_size = 1.5 * float(np.log(top**2 / (2 * np.pi * (variance + (LEAST_SPEED / 3) ** 2))))
-    return of_size - _off(velocity, variance) / 2 if of_size > 0 else 0.0
+    own = top**2 / 5
+    share = own / (own + _spread(variance))
+    return -1.5 * float(np.log1p(-share)) - share * _off(velocity, variance) / 2
 
 
 def driven(
