@@ -8,6 +8,7 @@ from functools import cached_property
 
 import casadi as ca
 
+from pyimu.block.plain import plain_function
 from pyimu.block.program import Program, program
 
 
@@ -35,7 +36,8 @@ def taken_apart(
     last argument in place of these.
 
     They are SX functions of the same arguments. In c is what follows from the fixed arguments and
-    is asked for by anything that follows from others, too: the bits are those of the functions.
+    is asked for by anything that follows from others, too: the bits are those of the functions in
+    plain arithmetic, in which they come back.
     """
     symbols = functions[0].sx_in()
     together = [ca.densify(out) for f in functions for out in f.call(symbols, True, False)]
@@ -47,8 +49,8 @@ def taken_apart(
     outputs = iter(ca.vertsplit(column, ends))
     left = [*(a for i, a in enumerate(symbols) if i not in fixed), c]
     given = [symbols[i] for i in fixed]
-    return ca.Function("constants", given, [constants], {"cse": True}), [
-        ca.Function(f.name(), left, [next(outputs) for _ in range(f.n_out())], {"cse": True})
+    return plain_function("constants", given, [constants], {"cse": True}), [
+        plain_function(f.name(), left, [next(outputs) for _ in range(f.n_out())], {"cse": True})
         for f in functions
     ]
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import casadi as ca
 
@@ -32,8 +33,7 @@ def operands_of(op: int, named: Sequence[int]) -> Sequence[int]:
     return named[:1] if op in UNARY else named
 
 
-@dataclass(frozen=True)
-class Instruction:
+class Instruction(NamedTuple):
     """One operation ``op`` of casadi's on the values ``of`` earlier instructions.
 
     ``of`` is the number of an input and of its entry for ``OP_INPUT``, and empty for ``OP_CONST``,
@@ -81,14 +81,14 @@ def program(function: ca.Function) -> Program:
     outputs: dict[tuple[int, int], int] = {}
     for k in range(function.n_instructions()):
         op, to = function.instruction_id(k), function.instruction_output(k)
-        of = tuple(function.instruction_input(k))
-        if op == ca.OP_OUTPUT:
-            outputs[to[0], to[1]] = place[of[0]]
-            continue
         if op == ca.OP_CONST:
             one = Instruction(op, (), function.instruction_constant(k))
         else:
-            one = Instruction(op, of if op == ca.OP_INPUT else tuple(place[i] for i in of))
+            of = function.instruction_input(k)
+            if op == ca.OP_OUTPUT:
+                outputs[to[0], to[1]] = place[of[0]]
+                continue
+            one = Instruction(op, tuple(of if op == ca.OP_INPUT else [place[i] for i in of]))
         place[to[0]] = len(made)
         made.append(one)
     return Program(tuple(made), outputs)

@@ -147,7 +147,7 @@ def _predict(layout: Layout, recorded: bool = False) -> tuple[ca.Function, ca.Fu
     sample, is_ordinary = read(*given)
     # What this reads is read again by the row: handed over, a processor would wait for it.
     chosen = is_ordinary * (1 + is_awake(at) + 2 * is_calibrated(at))
-    which = plain_function("which_row", symbols, [chosen], OPTIONS)
+    which = ca.Function("which_row", symbols, [chosen])
     rows = [
         _row("other_row", at, look_closely(*given), symbols, recorded),
         _row("ordinary_row", at, sample, symbols, recorded),
@@ -165,7 +165,9 @@ def _predict(layout: Layout, recorded: bool = False) -> tuple[ca.Function, ca.Fu
 def _row(
     name: str, at: Instant, sample: Sample, symbols: list[ca.SX], recorded: bool
 ) -> ca.Function:
-    """The prediction of one sample."""
+    """The prediction of one sample, in functions of the C library, too: in plain arithmetic, what
+    settings alone decide would be written out for each row.
+    """
     rest = rest_of(at, sample)
     noise = added_noise(at, sample, rest)
     pushed = push(at.memory, sample, at.settings, at.h, rest.surely)
@@ -177,7 +179,7 @@ def _row(
         _, own, leak = marginal.turned(rest.before, *turn, at.h)
         set_back = rest.before.bias - at.memory.estimate.bias
         out.append(Transition.of(own, leak, rest.before, x, pushed, noise, set_back).pack())
-    return plain_function(name, symbols, out, OPTIONS)
+    return ca.Function(name, symbols, out)
 
 
 # Updates
