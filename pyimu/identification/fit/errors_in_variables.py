@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from pyimu.identification.fit.columns import Linear, Stack, band_time
 from pyimu.identification.fit.fit import Fit, Last, power, whitened, whitened_power
 from pyimu.identification.fit.incoherent import CHANCE
 from pyimu.identification.fit.inputs import copied
-from pyimu.identification.fit.normal import DEAD, Normal, normal_equations
+from pyimu.identification.fit.normal import DEAD, Normal, in_slices, normal_equations
 from pyimu.identification.fit.trial import Trial
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.signals import COLUMNS
@@ -133,10 +134,11 @@ def equations(
         row[at] = error * noise.score[own]
         unknown[at] += error * np.diag(noise.gram)[own]
         # Gram matrices by batch are large: they are taken off where they stand.
-        score[:, at] -= noise.batch_score[:, own]
-        here, there = np.ix_(at, at), np.ix_(own, own)
-        for one, part in zip(gram, noise.batch_gram, strict=True):
-            one[here] -= part[there]
+        same = in_slices(at, own)
+        for here, there in same:
+            score[:, here] -= noise.batch_score[:, there]
+        for (to, a), (across, b) in product(same, same):
+            gram[:, to, across] -= noise.batch_gram[:, a, b]
         power -= noise.power
     whole = gram.sum(axis=0)
     hidden = np.diag(whole) <= np.maximum(LEAST_SEEN * np.diag(seen), CHANCE * unknown)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, product
@@ -87,13 +88,13 @@ def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
     for one, count in zip(linears, batches, strict=True):
         edges = np.linspace(0, len(one.time), count + 1).astype(int).tolist()
         for i, columns in one.columns.items():
-            at = np.array([position[k] for k in one.keys[i]], dtype=int)
+            at = [position[k] for k in one.keys[i]]
             white = noise[i].filter(one.time, one.segments)
             products = _products(white, one.residual[:, i], columns, edges)
             power += float(products[:, 0, 0].sum())
             log_det += white.log_det
             rows += len(one.time)
-            batch, runs = slice(first, first + count), _runs(at)
+            batch, runs = slice(first, first + count), in_slices(at, range(1, 1 + len(at)))
             for to, a in runs:
                 score[batch, to] += products[:, 0, a]
             for (to, a), (across, b) in product(runs, runs):
@@ -102,16 +103,17 @@ def normal_equations(linears: list[Linear], noise: Noise) -> Normal:
     return Normal(keys, gram, score, power, rows, log_det)
 
 
-def _runs(at: np.ndarray) -> list[tuple[slice, slice]]:
-    """Places ``at`` (c,) as few slices, each with that of the columns behind the residual's which
-    belong there.
-    """
-    edges = [0, *(np.flatnonzero(np.diff(at) != 1) + 1).tolist(), len(at)]
-    return [
-        (slice(int(at[a]), int(at[a]) + b - a), slice(1 + a, 1 + b))
-        for a, b in pairwise(edges)
-        if b > a
-    ]
+def in_slices(to: Sequence[int], of: Sequence[int]) -> list[tuple[slice, slice]]:
+    """Places ``to`` (c,), and ``of`` (c,) which each belongs there, as few slices of both."""
+    pairs = list(zip(to, of, strict=True))
+    breaks = [k for k, (one, two) in enumerate(pairwise(pairs), 1) if _is_break(one, two)]
+    edges = [0, *breaks, len(pairs)]
+    ends = [(*pairs[a], b - a) for a, b in pairwise(edges) if b > a]
+    return [(slice(at, at + count), slice(there, there + count)) for at, there, count in ends]
+
+
+def _is_break(one: tuple[int, int], two: tuple[int, int]) -> bool:
+    return two[0] - one[0] != 1 or two[1] - one[1] != 1
 
 
 def _products(white: Filter, residual: np.ndarray, columns: Stack, edges: list[int]) -> np.ndarray:

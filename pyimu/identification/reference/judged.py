@@ -39,6 +39,7 @@ class Judge:
 
     def __init__(self, trial: Trial, filters: Sequence) -> None:
         self.whole, self.known, self.of_sensor = trial, {}, {}
+        self.made: dict = {}
         reaches = [r for r in {f.reach(trial.h) for f in filters} if self._is_short(r)]
         self.reach = max(reaches, default=0)
         inner = [(a + self.reach, b - self.reach) for a, b in trial.segments]
@@ -85,7 +86,8 @@ class Judge:
 
     def _settle(self, filters: Sequence) -> None:
         """The noise: that of the filter which leaves least as it stands."""
-        rest = [self._rest(self._columns(f)) for f in filters]
+        self.made = {f: self._columns(f) for f in filters}
+        rest = [self._rest(columns) for columns in self.made.values()]
         best = min(rest, key=lambda r: float(np.sum(np.square(r))))
         self.noise = [Autoregressive.fit([(column, self.time, self.segments)]) for column in best.T]
         period = self.whole.h * self.whole.band.stride
@@ -102,7 +104,8 @@ class Judge:
         if not self.noise or not self._reaches(one):
             return np.inf, np.inf
         if one not in self.known:
-            columns, power, alike = self._columns(one), -self._own(one), 0.0
+            columns = self.made.pop(one) if one in self.made else self._columns(one)
+            power, alike = -self._own(one), 0.0
             for i, noise in enumerate(self.noise):
                 y, x, more = self._white(noise, self.shown[:, [i]], columns[i], self._taken[i])
                 y, more = y - explained(x, y), more - explained(x, more)
@@ -142,11 +145,15 @@ class Judge:
     def _white(self, noise: Autoregressive, *columns: np.ndarray) -> list[np.ndarray]:
         """Columns beside white noise, less the rows on which samples without information weigh."""
         white = noise.whiten(np.column_stack(columns), self.time, self.segments)
-        bad = ~moving_rows(self.trial)
-        if bad.any():
+        if self._bad.any():
             memory = np.ones(len(noise.coefficients) + 1)
-            white = white[np.convolve(bad, memory)[: len(bad)] == 0.0]
+            white = white[np.convolve(self._bad, memory)[: len(self._bad)] == 0.0]
         return np.split(white, np.cumsum([c.shape[1] for c in columns])[:-1], axis=1)
+
+    @cached_property
+    def _bad(self) -> np.ndarray:
+        """Marks (m,) of the rows on which samples without information weigh."""
+        return ~moving_rows(self.trial)
 
     def _columns(self, one) -> list[np.ndarray]:
         """A bias, the motion behind the filter and what a clock makes of it (m, 7), for each axis
