@@ -102,7 +102,7 @@ def test_the_filter_over_positions_is_found_and_how_long_it_is(kind):
     assert width(found.detail["seconds"]) == pytest.approx(width(size), rel=0.05)
 
 
-@pytest.mark.parametrize("cut_off", [5.0, 12.0])
+@pytest.mark.parametrize("cut_off", [5.0, pytest.param(12.0, marks=pytest.mark.long)])
 def test_a_low_pass_filter_over_positions_is_found_by_its_delay_too(cut_off):
     wand = Wand(seed=22)
     (found,) = found_in(wand.log(low_passed(cut_off)(wand.place)))
@@ -125,7 +125,7 @@ def test_positions_that_are_early_by_less_than_half_a_row_stay():
     assert not found_in(wand.log(early))
 
 
-@pytest.mark.parametrize("seed", [306, 310])
+@pytest.mark.parametrize("seed", [306, pytest.param(310, marks=pytest.mark.long)])
 def test_the_filter_of_the_attitudes_is_found_over_positions_whose_noise_hides_it(seed):
     """Software smooths all that cameras saw: one filter need not be found among many, and its
     width is that of the attitudes' to the last digit."""
@@ -179,7 +179,7 @@ def test_positions_without_noise_are_behind_no_filter_that_smooths_the_sensors_n
     assert not found_in(Wand(seed=84, seconds=40.0, place_noise=0.0).log())
 
 
-@pytest.mark.parametrize("seed", [85, 86, 88])
+@pytest.mark.parametrize("seed", [85, *(pytest.param(s, marks=pytest.mark.long) for s in (86, 88))])
 def test_a_filter_over_positions_without_noise_is_found(seed):
     """As wide as it is, by its form: a moving average of as large a second moment does nearly the
     same below 2.5 Hz, and may be taken for it."""

@@ -43,7 +43,10 @@ def added(closed):
     return {a.effect: a.parameters for a in closed.added}
 
 
-@pytest.mark.parametrize("clock, slips", [(-0.05, False), (0.03, False), (-0.02, True)])
+@pytest.mark.parametrize(
+    "clock, slips",
+    [pytest.param(-0.05, False, marks=pytest.mark.long), (0.03, False), (-0.02, True)],
+)
 def test_a_lag_is_told_from_the_clock_by_what_it_damps(clock, slips):
     """Whether the sensor shows the motion early, late, or later and later."""
     closed = pyimu.close(log(5, clock, slips=slips))

@@ -39,8 +39,15 @@ def fused(gyro: np.ndarray, true: Rotation, gain: float) -> Rotation:
     return Rotation.concatenate(q)
 
 
-@pytest.mark.parametrize("rests", [True, False])
-@pytest.mark.parametrize("own", [True, False])
+@pytest.mark.parametrize(
+    "own, rests",
+    [
+        (True, False),
+        (False, True),
+        pytest.param(True, True, marks=pytest.mark.long),
+        pytest.param(False, False, marks=pytest.mark.long),
+    ],
+)
 def test_the_noise_tells_an_attitude_of_the_gyros_own(own, rests):
     time, rate, true = hand(4, rests)
     rng = np.random.default_rng(5)

@@ -62,7 +62,13 @@ def hand(seed: int, seconds: float = 90.0) -> tuple[np.ndarray, Rotation, np.nda
     return time, turn, RotationSpline(time, turn)(time, 1)
 
 
-@pytest.mark.parametrize("noise", [1e-3, 6e-3], ids=["camera", "poor camera"])
+@pytest.mark.parametrize(
+    "noise",
+    [
+        pytest.param(1e-3, marks=pytest.mark.long, id="camera"),
+        pytest.param(6e-3, id="poor camera"),
+    ],
+)
 def test_an_attitude_in_noise_behind_a_low_pass_is_undone(noise):
     """The noise that a slope makes larger hid the filter, and was coning of -4 where it did not.
     Of eight logs the time constant was right to 0.25 and 1.5 %, root mean square."""

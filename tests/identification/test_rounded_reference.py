@@ -79,7 +79,13 @@ rate_random_walk.K = {{ value = 1e-6, unit = "rad/s/sqrt(s)" }}
 
 
 @pytest.mark.parametrize(
-    "seed, count, noise", [(31, 8, NOISE), (33, 3, NOISE), (33, 20, 2 * NOISE), (33, 20, 4 * NOISE)]
+    "seed, count, noise",
+    [
+        (31, 8, NOISE),
+        pytest.param(33, 3, NOISE, marks=pytest.mark.long),
+        pytest.param(33, 20, 2 * NOISE, marks=pytest.mark.long),
+        (33, 20, 4 * NOISE),
+    ],
 )
 def test_what_rounding_leaves_is_no_noise_of_the_sensor(seed, count, noise):
     """What a digit is off by stays for as long as the speed does: it was a drift, a bias of many

@@ -70,7 +70,9 @@ def blamed(closed):
 @pytest.mark.parametrize(
     "kind, noise",
     [
-        *((kind, 0.0) for kind in SMOOTHERS),
+        ("moving_average", 0.0),
+        ("butterworth_2", 0.0),
+        pytest.param("gaussian", 0.0, marks=pytest.mark.long),
         ("gaussian", 1e-3),
         pytest.param("moving_average", 1e-3, marks=pytest.mark.long),
         pytest.param("butterworth_2", 1e-3, marks=pytest.mark.long),

@@ -146,7 +146,7 @@ def turned_in_turn(noise: float, seed: int) -> Recording:
     return log(time, gyro=gyro, ref_q=seen.as_quat(scalar_first=True))
 
 
-@pytest.mark.parametrize("seed", [1, 4])
+@pytest.mark.parametrize("seed", [pytest.param(1, marks=pytest.mark.long), 4])
 def test_beside_an_attitude_the_axes_that_turn_keep_their_scale_factors(seed):
     """What is left before anything is fitted is motion, which the past of it predicts. The rate of
     an axis that stands is the reference's noise, which is no motion of what that leaves."""

@@ -24,7 +24,7 @@ def turned_in_turn(at: float, seed: int) -> pyimu.Recording:
     return pyimu.Recording.from_arrays("table", time=time, gyro=gyro, ref_rate=rate)
 
 
-@pytest.mark.parametrize("at", [100.0, 170.0])
+@pytest.mark.parametrize("at", [100.0, pytest.param(170.0, marks=pytest.mark.long)])
 def test_the_step_is_named_with_its_instant(at):
     found = pyimu.close(turned_in_turn(at, int(at)))
     (step,) = found.added

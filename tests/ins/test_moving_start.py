@@ -36,7 +36,9 @@ def excerpt(seed, begins=30.0, stands=True):
     return replace(log, heading=np.where(np.arange(len(log)) == 0, drive.course[at], np.nan))
 
 
-@pytest.mark.parametrize(("seed", "nhc"), [(1, False), (2, True), (3, False)])
+@pytest.mark.parametrize(
+    ("seed", "nhc"), [(1, False), (2, True), pytest.param(3, False, marks=pytest.mark.long)]
+)
 def test_an_excerpt_that_begins_at_speed_is_followed(seed, nhc):
     """One in 10,000 ends is further off than that by its own covariance; the path is nearer to the
     truth than its positions are.
