@@ -75,9 +75,19 @@ HAND_WRITTEN = ("loop.h", "noise.c", "noise.h", "prefix.h", "vector.h")
 
 VECTORS = '#include "vector.h"\n'
 
-VECTOR_WRITERS = ("alike.py", "vector_cost.py", "vector_plan.py", "unit_order.py", "vectors.py")
-"""What makes vectors of the source by which a library is named: that takes longer than to write it,
-and is left until there is none."""
+WRITERS = (
+    "alike.py",
+    "c_code.py",
+    "compiled.py",
+    "program.py",
+    "straight.py",
+    "unit_order.py",
+    "vector_cost.py",
+    "vector_plan.py",
+    "vectors.py",
+)
+"""What makes the source of functions, by which a library is named: to write it takes ten times as
+long as to list what they compute, and is left until there is none."""
 
 LOOKED_FOR = 2_000
 """Samples of a step in one process, some milliseconds of the virtual machine, from which on the
@@ -236,7 +246,7 @@ def _library(functions: list[ca.Function], compile_it: bool) -> ctypes.CDLL | No
     compiler = compiler_command()
     if not compiler:
         return None
-    key = _key(_source(functions), tuple(compiler))
+    key = _key(_listed(functions), tuple(compiler))
     if key not in _loaded:
         library = _from_cache(key)
         if library is None and compile_it:
@@ -248,13 +258,19 @@ def _library(functions: list[ca.Function], compile_it: bool) -> ctypes.CDLL | No
     return _loaded[key]
 
 
-def _key(source: str, compiler: tuple[str, ...]) -> str:
+def _listed(functions: list[ca.Function]) -> str:
+    """What functions compute, as casadi keeps it in files."""
+    return "\n".join(f.serialize() for f in functions)
+
+
+def _key(listed: str, compiler: tuple[str, ...]) -> str:
     """Whatever the library's bytes follow from, as a name."""
     hand_written = [(source_folder() / name).read_bytes() for name in HAND_WRITTEN]
-    writers = [Path(__file__).with_name(name).read_bytes() for name in VECTOR_WRITERS]
+    writers = [Path(__file__).with_name(name).read_bytes() for name in WRITERS]
     # A home may be shared with machines of other processors.
     texts = [
-        source,
+        listed,
+        ca.CasadiMeta.version(),
         *flags([*compiler]),
         *BESIDE_VECTORS,
         sys.platform,

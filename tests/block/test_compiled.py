@@ -278,16 +278,16 @@ def test_library_is_found_by_another_process(cache):
 
 
 def test_another_step_flags_noise_or_processor_are_another_library(monkeypatch, tmp_path):
-    source, compiler = native._source([toy().step]), ("cc",)
-    keys = [native._key(source, compiler), native._key(source + " ", compiler)]
+    listed, compiler = native._listed([toy().step]), ("cc",)
+    keys = [native._key(listed, compiler), native._key(listed + " ", compiler)]
     monkeypatch.setattr(native, "FLAGS", (*native.FLAGS, "-g"))
-    keys.append(native._key(source, compiler))
+    keys.append(native._key(listed, compiler))
     for name in native.HAND_WRITTEN:
         (tmp_path / name).write_text("int other;")
     monkeypatch.setattr(native, "source_folder", lambda: tmp_path)
-    keys.append(native._key(source, compiler))
+    keys.append(native._key(listed, compiler))
     monkeypatch.setattr(native, "_processor", lambda compiler: "another")
-    keys.append(native._key(source, compiler))
+    keys.append(native._key(listed, compiler))
     assert len(set(keys)) == 5
 
 

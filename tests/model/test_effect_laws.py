@@ -480,9 +480,9 @@ def test_values_survive_the_part_file(name, kind, tmp_path: Path):
     np.testing.assert_array_equal(read.sensor(kind).p, made.sensor(kind).p)
 
 
-@every_effect
-def test_names_of_coefficients_and_noise_are_unique(name, kind):
-    block = as_part(excited(name, kind), everything("accel" if kind == "gyro" else "gyro")).block
+def test_names_of_coefficients_and_noise_are_unique():
+    """Of a part with every effect that there is, and so of any with fewer."""
+    block = as_part(everything("gyro"), everything("accel")).block
     names = [v.name for v in (*block.inputs, *block.parameters, *block.outputs)]
     assert len(set(names)) == len(names)
     assert len({c.number for c in block.noise}) == len(block.noise)
