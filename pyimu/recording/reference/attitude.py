@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from functools import lru_cache, partial
 
 import numpy as np
 from scipy.spatial.transform import Rotation, RotationSpline
@@ -14,6 +14,9 @@ from pyimu.recording.reference.jumps import jumps
 from pyimu.recording.reference.nodes import own_samples
 from pyimu.recording.reference.sampling import through
 from pyimu.recording.reference.track import Track
+
+KEPT = 1 << 17
+"""Samples of a curve that is kept for the next time, some 30 MB; a longer one is made anew."""
 
 
 def attitude_track(source: Recording) -> Track:
@@ -51,8 +54,17 @@ def steps_of(q: np.ndarray, nodes: np.ndarray) -> np.ndarray:
 
 def attitude_curve(source: Recording, nodes: np.ndarray) -> RotationSpline:
     """The attitude through the samples ``nodes`` (m,) of ``ref_q``, body to world."""
-    q = Rotation.from_quat(source.ref_q[nodes], scalar_first=True)
-    return RotationSpline(source.time[nodes], q)
+    made = _curve if len(nodes) <= KEPT else _curve.__wrapped__
+    return made(source.time[nodes].tobytes(), source.ref_q[nodes].tobytes())
+
+
+@lru_cache(maxsize=1)
+def _curve(time: bytes, q: bytes) -> RotationSpline:
+    """The curve through attitudes (m, 4), which takes long to make, and is asked for of one log
+    again and again.
+    """
+    attitude = Rotation.from_quat(np.frombuffer(q).reshape(-1, 4), scalar_first=True)
+    return RotationSpline(np.frombuffer(time), attitude)
 
 
 def rate_through(source: Recording, nodes: np.ndarray) -> Callable[..., np.ndarray]:
