@@ -40,6 +40,7 @@ from pyimu.identification.search.ceiling import (
 )
 from pyimu.identification.search.choice import Refined, Tried, chosen_of
 from pyimu.identification.search.confirm import evidence
+from pyimu.identification.search.damped import damped, damped_trial, damps_by, sharp, sharp_trial
 from pyimu.identification.search.inexact import within_form
 from pyimu.identification.search.judge import OF_REFERENCE, judged
 from pyimu.identification.search.left_out import LeftOut, with_left_out
@@ -258,7 +259,7 @@ class _Search:
         self.before, self.sensor, self.held = before, sensor, held
         self.believed, self.lines = believed, lines
         self.line: Refined | None = None
-        self.lags = lags
+        self.lags, self.falls = lags, 0.0
         self.without_lag: Fit | None = None
         self.after, self.steps = _as_sampled(before, held)
         if self.steps and any(t.limited is not None for t in self.after.trials):
@@ -277,8 +278,10 @@ class _Search:
         """Take in a lag that clocks may hide, or refuse it; False where there is none."""
         if not self.lags or self.after is self.without_lag:
             return False
-        found = lag_beside_clocks(self.after, self.seen.gate)
+        found = lag_beside_clocks(sharp(self.after, self.falls), self.seen.gate)
         if found is None:
+            if not self.falls:
+                self._damp()
             self.without_lag = self.after
             return False
         self.lags = False
@@ -287,14 +290,24 @@ class _Search:
         alone = chosen_of(self.tried, self.seen.above(), self.seen.gate)[0] if own else None
         if alone is not None and not leaves_less(found.lag.fit, alone.fit):
             return False
-        held = [apart(t) for t in self.held]
+        held = [apart(sharp_trial(t, self.falls)) for t in self.held]
         chosen, reason = judged(Tried(found.wide, self.sensor.values), found.lag, held, GATE)
         if reason:
             self._refuse(chosen, reason)
             return False
-        self.before, self.held = beside_clocks(self.before), held
+        self.before = beside_clocks(sharp(self.before, self.falls))
+        self.held, self.falls = held, 0.0
         self._add(chosen, found.alternatives)
         return True
+
+    def _damp(self) -> None:
+        """Heed what damps the motion where no lag does."""
+        self.falls = damps_by(self.after, self.seen.gate)
+        if self.falls:
+            self.before, after = (damped(f, self.falls) for f in (self.before, self.after))
+            self.held = [damped_trial(t, self.falls) for t in self.held]
+            self._goes_on(after)
+            self.first = self.seen
 
     def _refuse(self, chosen: Refined, reason: str) -> None:
         name = chosen.screened.effect

@@ -71,7 +71,7 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     None where none does.
     """
     forms = _forms(current)
-    hides = all(map(_may_hide_a_lag, current.trials))
+    hides = all(map(may_hide_a_lag, current.trials))
     if not forms or not hides or not _damps_more(damping(current), gate):
         return None
     wide = beside_clocks(current)
@@ -131,7 +131,7 @@ def _forms(current: Fit) -> list[Effect]:
     return [e for e in absent(current) if e.delay is not None and e.name != MERE]
 
 
-def _may_hide_a_lag(trial: Trial) -> bool:
+def may_hide_a_lag(trial: Trial) -> bool:
     """Whether a trial's clock may hide a lag. That of a point that is tracked turns otherwise than
     the vehicle, and noise of a rate that is measured, or of what was smoothed, damps most of what
     is quick, too.
@@ -154,7 +154,7 @@ def apart(trial: Trial) -> Trial:
     there; one whose clock was not seen, or is so already, as it is.
     """
     clock = trial.clock
-    if not _may_hide_a_lag(trial) or clock.apart:
+    if not may_hide_a_lag(trial) or clock.apart:
         return trial
     less = int(np.ceil(LONGEST_OWN / trial.h)) + TAPS
     kept = [(a + less, b - less) for a, b in trial.segments if b - a > 3 * less]
