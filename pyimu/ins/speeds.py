@@ -42,15 +42,13 @@ UNLIKELY = float(np.log(1e-6))
 """Log of how likely it is that a change of the velocity is off beyond its errors. Assumed."""
 
 DRIVES_AT_FIRST = PUSHED = float(np.log(0.05))
-"""That a log whose start looks still begins with a drive, and that what is shorter is pushed.
+"""That a log whose start looks still begins with a drive, and that what is shorter than ``LONG`` is
+pushed; of what is longer, less by the square of its length, as few pushes are even for long.
 Assumed."""
 
-PUSHED_LONG = float(np.log(0.01))
-"""That what is longer than ``LONG`` is pushed. Beside a tenth of it, fewer rests of bodies that are
-pushed gently are found; beside five times as much, chance calls a rest pushed."""
-
 REST = float(np.log(2.0))
-"""Log of how likely a rest is beside a drive where nothing tells. Assumed."""
+"""Log of how likely a rest is beside a drive where nothing tells; of what is shorter than ``LONG``,
+less by its length. Assumed."""
 
 DRIFTS = 0.2
 """Of a speed, by which it may change while it looks constant. Assumed."""
@@ -70,7 +68,7 @@ TURNED = 0.1
 
 APART, LONG = 2 * WINDOW, 2.0
 """s; stretches that are nearer to each other than the first are one that a window parted by chance,
-as it does in a gentle push. A push is seldom even for more than the second."""
+as it does in a gentle push. A push is seldom even for more than the second, and a rest shorter."""
 
 
 @dataclass(frozen=True)
@@ -255,7 +253,8 @@ def _rests_of(
             score = since[k].rests(top) if k in since else UNLIKELY
             if unmoved and _is_pushed(changes.get((stays[at], k))):
                 score = UNLIKELY
-            way = best[at][0] + max(score, UNLIKELY) + REST, at
+            short = float(np.log(min(stretches[k].rows * period / LONG, 1.0)))
+            way = best[at][0] + max(score, UNLIKELY) + REST + short, at
             if way > best[k]:
                 best[k], stays[k] = way, stays[at] if unmoved else k
     at = int(np.argmax(ends)) if np.isfinite(ends).any() else -1
@@ -312,7 +311,7 @@ def _pushed(stretches: list[_Stretch], period: float) -> float:
     """Log of how likely it is that all of these are pushed: one push may be several of them."""
     if not stretches:
         return 0.0
-    return PUSHED if all(s.rows * period <= LONG for s in stretches) else PUSHED_LONG
+    return PUSHED + 2 * float(np.log(min(LONG / max(s.rows * period for s in stretches), 1.0)))
 
 
 def _change(
