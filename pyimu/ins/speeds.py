@@ -43,8 +43,7 @@ UNLIKELY = float(np.log(1e-6))
 
 DRIVES_AT_FIRST = PUSHED = float(np.log(0.05))
 """That a log whose start looks still begins with a drive, and that what is shorter than ``LONG`` is
-pushed; of what is longer, less by the square of its length, as few pushes are even for long.
-Assumed."""
+pushed; of what is longer, less by its length, as few pushes are even for long. Assumed."""
 
 REST = float(np.log(2.0))
 """Log of how likely a rest is beside a drive where nothing tells; of what is shorter than ``LONG``,
@@ -311,7 +310,7 @@ def _pushed(stretches: list[_Stretch], period: float) -> float:
     """Log of how likely it is that all of these are pushed: one push may be several of them."""
     if not stretches:
         return 0.0
-    return PUSHED + 2 * float(np.log(min(LONG / max(s.rows * period for s in stretches), 1.0)))
+    return PUSHED + float(np.log(min(LONG / max(s.rows * period for s in stretches), 1.0)))
 
 
 def _change(
