@@ -303,8 +303,7 @@ def _takes_it_for_noise(fitted: Fit) -> bool:
 
 def promise(c: Screened, start: Fit, current: Fit) -> float:
     """Log-likelihood [nat] that a candidate gains by the noise that a model has, which is not
-    fitted anew to what it leaves: some steps from where it ``start``s tell, and a search to its end
-    takes ten times as long where there is nothing to find.
+    fitted anew to what it leaves, some steps from where it ``start``s.
     """
     return advantage_by_its_noise(_with(start, c), current)
 

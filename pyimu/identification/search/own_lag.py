@@ -48,6 +48,9 @@ LEAST = 0.1
 """Share of the power that a model leaves which a lag must explain: what is less may be what the
 motion, the clock or the noise of the reference does to a gain at high frequencies."""
 
+MOST_OF = 0.5
+"""Share of what a lag must explain that the plainest form must, for others to be looked at."""
+
 RINGS = 4.0
 """Standard errors by which the damping of a filter may be below that of one that is flat."""
 
@@ -79,9 +82,14 @@ def lag_beside_clocks(current: Fit, gate: float) -> Beside | None:
     shown = damping(wide, by_sensor=True)
     if not _damps_more(shown, gate):
         return None
-    found = [_found(wide, e) for e in forms]
+    # Whatever the filter, a first-order one explains much of what it does, and is found at once.
+    plainest, *others = sorted(forms, key=lambda e: len(coefficients_of(wide.sensor, e.name)))
+    first = _found(wide, plainest)
+    if first.gain <= 0.0 or share_left(first.fit, wide) > 1.0 - MOST_OF * LEAST:
+        return None
+    found = [first, *(_found(wide, e) for e in others)]
     above = gate + np.log(len(forms) * len(STARTS))
-    found = [r for r in found if r is not None and r.gain > above and _is_seen(r, wide, shown[0])]
+    found = [r for r in found if r.gain > above and _damps(r) and _is_seen(r, wide, shown[0])]
     if not found:
         return None
     best = plainest_form(found)
@@ -165,18 +173,11 @@ def apart(trial: Trial) -> Trial:
     return replace(trial, u=u, clock=whole, segments=kept or trial.segments)
 
 
-def _found(wide: Fit, e: Effect) -> Refined | None:
-    """An effect beside the clocks, fitted from where it promises most; None where it promises
-    nothing, or rings.
-    """
+def _found(wide: Fit, e: Effect) -> Refined:
+    """An effect beside the clocks, fitted from where it promises most."""
     starts = [_from(wide, e, delay) for delay in STARTS]
-    promised = [promise(c, start, wide) for start, c in starts]
-    best = int(np.argmax(promised))
-    if promised[best] <= 0.0:
-        return None
-    start, c = starts[best]
-    found = refine(start, c)
-    return found if _damps(found) else None
+    start, c = max(starts, key=lambda one: promise(one[1], one[0], wide))
+    return refine(start, c)
 
 
 def _from(current: Fit, e: Effect, delay: float) -> tuple[Fit, Screened]:
