@@ -9,7 +9,6 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.recording.header import some_of
-from pyimu.recording.reference.play import OF_JOINT
 from pyimu.report.meaning import MEANING
 from pyimu.report.numbers import number, quantity
 
@@ -44,8 +43,8 @@ SECONDS, SECONDS_OF_TIME = (
 RATES = ("rate", "frequency")
 """How the names of details end that are in Hz."""
 
-ANGLES = ("tilt", "angle")
-"""Details of findings that are angles."""
+ANGLES = ("tilt", "angle", "_play")
+"""How the names of details end that are angles in rad."""
 
 SENTENCES = {
     "reference_heading": (
@@ -89,7 +88,7 @@ def _numbers(column: str, details: Mapping[str, Any]) -> list[str]:
         )
         if sample and name in SAMPLE:
             text = quantity(float(value), sample)
-        elif name in ANGLES or name.endswith(OF_JOINT):
+        elif name.endswith(ANGLES):
             text = quantity(float(value), "rad")
         elif name == "white_noise":
             text = quantity(float(value), "rad/sqrt(s)")
