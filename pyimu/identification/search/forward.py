@@ -275,15 +275,16 @@ class _Search:
         self._lags()
 
     def _lags(self) -> bool:
-        """Take in a lag that clocks may hide, or refuse it; False where there is none."""
+        """Take in a lag that clocks may hide, or refuse it, and heed what damps the motion then;
+        False where nothing is changed.
+        """
         if not self.lags or self.after is self.without_lag:
             return False
         found = lag_beside_clocks(sharp(self.after, self.falls), self.seen.gate)
         if found is None:
-            if not self.falls:
-                self._damp()
+            changed = self._damp()
             self.without_lag = self.after
-            return False
+            return changed
         self.lags = False
         # Where all that the sensor is late may be its own, one coefficient may do for both.
         own = any(t.clock.own for t in self.after.trials)
@@ -294,20 +295,25 @@ class _Search:
         chosen, reason = judged(Tried(found.wide, self.sensor.values), found.lag, held, GATE)
         if reason:
             self._refuse(chosen, reason)
-            return False
+            return self._damp()
         self.before = beside_clocks(sharp(self.before, self.falls))
         self.held, self.falls = held, 0.0
         self._add(chosen, found.alternatives)
         return True
 
-    def _damp(self) -> None:
-        """Heed what damps the motion where no lag does."""
-        self.falls = damps_by(self.after, self.seen.gate)
-        if self.falls:
-            self.before, after = (damped(f, self.falls) for f in (self.before, self.after))
-            self.held = [damped_trial(t, self.falls) for t in self.held]
-            self._goes_on(after)
-            self.first = self.seen
+    def _damp(self) -> bool:
+        """Heed what damps the motion where no lag does, or more of it beside what has come in
+        since, which had bent it, too; False where nothing more does.
+        """
+        more = damps_by(self.after, self.seen.gate)
+        if not more:
+            return False
+        first, was, self.falls = not self.falls, self.falls, self.falls + more
+        self.before, after = (damped(sharp(f, was), self.falls) for f in (self.before, self.after))
+        self.held = [damped_trial(sharp_trial(t, was), self.falls) for t in self.held]
+        self._goes_on(after)
+        self.first = self.seen if first else self.first
+        return True
 
     def _refuse(self, chosen: Refined, reason: str) -> None:
         name = chosen.screened.effect
