@@ -1,9 +1,9 @@
-"""What references and sensors show of quick motion where one damps it a little more than the other.
+"""Motion that a gyro damps a little, too little for a lag to be named.
 
 Samples that are means over a time, as of gyros that integrate between samples or decimate, damp the
-motion by a share that rises with the square of the frequency, as a slight smoothing of a reference
-does; a clock has the delay. Too little for a lag to be named, it bends the motion, and products of
-rates and of their slopes follow that: each would look like an effect.
+motion by a share that rises with the square of the frequency; a clock has the delay. It bends the
+motion, and products of rates and of their slopes follow that: each would look like an effect. What
+a reference damps so little is left in it: undone there, its noise would be the larger.
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ damp as much: sin(x) / x of x = w T / 2 falls by w^2 T^2 / 24."""
 
 def damps_by(current: Fit, gate: float) -> float:
     """Half of the second derivative [s^2] of the gain by which the gyro of a model damps the
-    motion, less than zero where its reference does: the lesser of what the motion as the reference
-    shows it says, and as the gyro does. The noise of the one makes it look as if the other damped.
-    Zero where they contradict each other, explain no more than ``gate`` [nat], or clocks hide none.
+    motion: the lesser of what the motion as the reference shows it says, and as the gyro does. The
+    noise of the one makes it look as if the other damped. Zero where one of them says that it does
+    not, where they explain no more than ``gate`` [nat], or clocks hide no lag.
     """
     if current.sensor.kind != "gyro" or not all(map(may_hide_a_lag, current.trials)):
         return 0.0
     (gain, falls), (seen, other) = damping(current), damping(current, by_sensor=True)
-    if min(gain, seen) <= gate or falls * other <= 0.0:
+    if min(gain, seen) <= gate or min(falls, other) <= 0.0:
         return 0.0
-    return min(falls, other, key=abs)
+    return min(falls, other)
 
 
 def damped(current: Fit, falls: float) -> Fit:
@@ -58,8 +58,7 @@ def damped_trial(trial: Trial, falls: float) -> Trial:
     """The trial with the motion as a gain that ``falls`` so shows it."""
     if not falls:
         return trial
-    column = "ref_q" if falls < 0.0 else trial.kind
-    found = Finding(DAMPED, column, 1, {"period": float(np.sqrt(OF_MEANS * abs(falls)))})
+    found = Finding(DAMPED, trial.kind, 1, {"period": float(np.sqrt(OF_MEANS * falls))})
     return replace(_bent(trial, falls), findings=(*trial.findings, found))
 
 
