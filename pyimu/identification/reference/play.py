@@ -48,9 +48,6 @@ ACROSS = float(np.cos(np.radians(45.0)))
 CLOSE = 1e-3
 """Share of a width to which it is found."""
 
-ROUNDS = 2
-"""Times that each joint's width is found, beside those of the others."""
-
 
 def unplayed(trial: Trial) -> Callable[[Recording], Recording] | None:
     """What takes the play out of the reference of a gyro's log; None where there is none."""
@@ -62,8 +59,8 @@ def unplayed(trial: Trial) -> Callable[[Recording], Recording] | None:
         judge = _Judge(_behind(trial, widths))
         if not judge.enough:
             return None
-        joint, width = max(product(left, WIDTHS), key=lambda one: judge.gain(*one))
-        gain = judge.gain(joint, width)
+        gains = {(j, float(w)): judge.gain(j, float(w)) for j, w in product(left, WIDTHS)}
+        (joint, width), gain = max(gains.items(), key=lambda one: one[1])
         if gain < least or gain - judge.gain(joint, width, backward=True) < LIKELIER:
             break
         widths[joint] = judge.width(joint, width)
@@ -71,10 +68,10 @@ def unplayed(trial: Trial) -> Callable[[Recording], Recording] | None:
         least = max(least, LEAST * gain)
     if not widths:
         return None
-    for _ in range(ROUNDS - 1):
-        for joint, width in widths.items():
-            others = {j: w for j, w in widths.items() if j != joint}
-            widths[joint] = _Judge(_behind(trial, others)).width(joint, width)
+    # Once more, each beside the others.
+    for joint, width in widths.items() if len(widths) > 1 else ():
+        others = {j: w for j, w in widths.items() if j != joint}
+        widths[joint] = _Judge(_behind(trial, others)).width(joint, width)
     return partial(without_play, widths=widths)
 
 
