@@ -63,7 +63,7 @@ MEANING = {
     "mag_zeros": "the magnetometer shows zeros alone: it was not used",
     "missing_cells": "cells are empty or no numbers: these samples are unknown",
     "motion": "the sensor moves here; what looks at rest alone leaves it out, or refuses the log",
-    "motion_damped": "the gyro damps quick motion as means over so long do, too little for a lag: heeded",
+    "motion_damped": "the gyro damps quick motion as means over so long do, no lag: heeded",
     "mount_slipped": (
         "sensor or markers turned in their mount then: what lies after it was turned back"
     ),
