@@ -95,8 +95,9 @@ class Trial:
     whole stretches of the log. ``samples`` (m, 3) are those of the reference at times of its own,
     where it was measured itself. ``healed`` (n, 3) is what was taken off samples that look like
     spikes, where there are any; ``limited`` (n, 3) marks those that lie where the output stops and
-    that a band would spread. ``reference_apart`` says that another clock gave the reference its
-    times.
+    that a band would spread. ``undamped`` (n, 3) is what the reference shows of the sensor's own
+    signal where ``u`` has it as a sensor does that damps a little. ``reference_apart`` says that
+    another clock gave the reference its times.
     """
 
     name: str
@@ -127,6 +128,7 @@ class Trial:
     samples: np.ndarray | None = None
     healed: np.ndarray | None = None
     limited: np.ndarray | None = None
+    undamped: np.ndarray | None = None
     reference_apart: bool = False
 
     @cached_property
@@ -214,6 +216,7 @@ class Trial:
             left_out=flags,
             healed=None if self.healed is None else self.healed[start:stop],
             limited=None if self.limited is None else self.limited[start:stop],
+            undamped=None if self.undamped is None else self.undamped[start:stop],
             earlier=earlier if len(earlier) else None,
             noise=None if self.noise is None else self.noise[start:stop],
             place=None if self.place is None else self.place.part(start, stop),

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from pyimu.display.silent import silent
+from pyimu.identification.fit.damping import Damped
 from pyimu.identification.fit.errors_in_variables import equations, has_noise
 from pyimu.identification.fit.fit import Fit, Last, begin, gauss_newton, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key, coefficients_of
@@ -40,7 +41,14 @@ from pyimu.identification.search.ceiling import (
 )
 from pyimu.identification.search.choice import Refined, Tried, chosen_of
 from pyimu.identification.search.confirm import evidence
-from pyimu.identification.search.damped import damped, damped_trial, damps_by, sharp, sharp_trial
+from pyimu.identification.search.damped import (
+    damped,
+    damped_trial,
+    damps_by,
+    means_over_a_period,
+    sharp,
+    sharp_trial,
+)
 from pyimu.identification.search.inexact import within_form
 from pyimu.identification.search.judge import OF_REFERENCE, judged
 from pyimu.identification.search.left_out import LeftOut, with_left_out
@@ -259,7 +267,8 @@ class _Search:
         self.before, self.sensor, self.held = before, sensor, held
         self.believed, self.lines = believed, lines
         self.line: Refined | None = None
-        self.lags, self.falls = lags, 0.0
+        self.lags = lags
+        self.damping: Damped | None = None
         self.without_lag: Fit | None = None
         self.after, self.steps = _as_sampled(before, held)
         if self.steps and any(t.limited is not None for t in self.after.trials):
@@ -280,7 +289,9 @@ class _Search:
         """
         if not self.lags or self.after is self.without_lag:
             return False
-        found = lag_beside_clocks(sharp(self.after, self.falls), self.seen.gate)
+        plain = sharp(self.after)
+        means = means_over_a_period(plain, self.seen.gate)
+        found = None if means else lag_beside_clocks(plain, self.seen.gate)
         if found is None:
             changed = self._damp()
             self.without_lag = self.after
@@ -291,13 +302,13 @@ class _Search:
         alone = chosen_of(self.tried, self.seen.above(), self.seen.gate)[0] if own else None
         if alone is not None and not leaves_less(found.lag.fit, alone.fit):
             return False
-        held = [apart(sharp_trial(t, self.falls)) for t in self.held]
+        held = [apart(sharp_trial(t)) for t in self.held]
         chosen, reason = judged(Tried(found.wide, self.sensor.values), found.lag, held, GATE)
         if reason:
             self._refuse(chosen, reason)
             return self._damp()
-        self.before = beside_clocks(sharp(self.before, self.falls))
-        self.held, self.falls = held, 0.0
+        self.before = beside_clocks(sharp(self.before))
+        self.held, self.damping = held, None
         self._add(chosen, found.alternatives)
         return True
 
@@ -305,14 +316,15 @@ class _Search:
         """Heed what damps the motion where no lag does, or more of it beside what has come in
         since, which had bent it, too; False where nothing more does.
         """
-        more = damps_by(self.after, self.seen.gate)
-        if not more:
+        more, was = damps_by(self.after, self.seen.gate), self.damping
+        if more is None:
             return False
-        first, was, self.falls = not self.falls, self.falls, self.falls + more
-        self.before, after = (damped(sharp(f, was), self.falls) for f in (self.before, self.after))
-        self.held = [damped_trial(sharp_trial(t, was), self.falls) for t in self.held]
+        by = more if was is None else replace(more, falls=more.falls + was.falls)
+        self.damping = by
+        self.before, after = damped(self.before, by), damped(self.after, by)
+        self.held = [damped_trial(t, by) for t in self.held]
         self._goes_on(after)
-        self.first = self.seen if first else self.first
+        self.first = self.seen if was is None else self.first
         return True
 
     def _refuse(self, chosen: Refined, reason: str) -> None:

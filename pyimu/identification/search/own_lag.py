@@ -19,7 +19,6 @@ from pyimu.identification.fit.inputs import LogState, copied, own_rate
 from pyimu.identification.fit.interpolated import TAPS, delayed
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
-from pyimu.identification.fit.reference_noise import MEASURED
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.candidates import Choice, Group, absent
 from pyimu.identification.search.choice import (
@@ -140,9 +139,8 @@ def _forms(current: Fit) -> list[Effect]:
 
 
 def may_hide_a_lag(trial: Trial) -> bool:
-    """Whether a trial's clock may hide a lag. That of a point that is tracked turns otherwise than
-    the vehicle, and noise of a rate that is measured, or of what was smoothed, damps most of what
-    is quick, too.
+    """Whether a trial's clock may hide the delay of a lag. That of a point that is tracked turns
+    otherwise than the vehicle, and what was smoothed is damped itself.
     """
     clock = trial.clock
     return (
@@ -152,7 +150,6 @@ def may_hide_a_lag(trial: Trial) -> bool:
         and clock.is_seen
         and clock.is_steady
         and not any(f.kind == SMOOTHED for f in trial.findings)
-        and not (trial.reference in MEASURED and trial.noise is not None and trial.noise.any())
     )
 
 
