@@ -70,6 +70,9 @@ SKIPPED = 5.0
 """s; the start of a further recording, in which the filters settle; of its end a twentieth, where
 one has spikes in its reference."""
 
+DRIFT_TIME = 20.0
+"""s; over which a heading without a magnetometer drifts."""
+
 BERLIN = (np.radians(52.5), np.radians(13.3)), "2020-01-01"
 """Where BROAD was recorded, and about when: in rad, and a day."""
 
@@ -96,12 +99,14 @@ def main() -> None:
         f"{'95 %: pyimu':>13s}{'vqf':>8s}{'quasi-static':>13s}"
     )
     logs = {path: pyimu.read_recording(path) for path in paths}
+    drifts = {}
     for path, log in logs.items():
         scored = np.isfinite(log.ref_q).all(axis=1) & moving_rows(log)
         ours = run(log, magnetometer=False)
         theirs = VQF(log.sample_period).updateBatch(
             np.ascontiguousarray(log.gyro), np.ascontiguousarray(log.accel)
         )["quat6D"]
+        drifts[path] = [drift(q, log) for q in (ours.q, theirs)]
         errors = [
             inclination(q[scored], log.ref_q[scored], mounted=log.moving is None)
             for q in (ours.q, theirs)
@@ -112,6 +117,7 @@ def main() -> None:
             f"{most[0]:13.3f}{most[1]:8.3f}"
             f"{np.mean(ours.quasi_static[scored]):12.0%} {verdict(rms)}"
         )
+    drift_table(drifts)
     smoothed_table(paths[: len(SCORED)])
     magnetic = [log for log in logs.values() if log.mag is not None]
     nine_axes(magnetic, VQF)
@@ -282,6 +288,34 @@ def folder() -> Path:
     if "--data" in sys.argv[:-1]:
         return Path(sys.argv[sys.argv.index("--data") + 1])
     return Path(os.environ.get("PYIMU_DATA", Path(__file__).parents[2] / "shared" / "data"))
+
+
+def drift(q: np.ndarray, log) -> float:
+    """deg; root mean square of how much the error of the heading of ``q`` (n, 4) changes over
+    ``DRIFT_TIME`` of motion without a pause; nan where there is none.
+    """
+    known = np.isfinite(log.ref_q).all(axis=1)
+    moves = known & (log.moving is not None and moving_rows(log))
+    axes, true = (
+        Rotation.from_quat(np.where(known[:, None], v, [1, 0, 0, 0]), scalar_first=True)
+        for v in (q, log.ref_q)
+    )
+    w, _, _, z = (axes * true.inv()).as_quat(scalar_first=True).T
+    off, step = 2 * np.arctan2(z, w), round(DRIFT_TIME / log.sample_period)
+    starts = [i for i in range(0, len(q) - step, step) if moves[i : i + step + 1].all()]
+    changes = [off[i + step] - off[i] for i in starts]
+    turned = (np.array(changes) + np.pi) % (2 * np.pi) - np.pi
+    return np.degrees(root_mean_square(turned)) if starts else np.nan
+
+
+def drift_table(drifts: dict[Path, list[float]]) -> None:
+    """The drift of the headings by six axes, and the means of those recordings that have one."""
+    title = f"heading, six axes: drift in {DRIFT_TIME:g} s of motion, RMS [deg]"
+    print(f"\n{title:62s}{'pyimu':>8s}{'vqf':>8s}")
+    rows = {p.name.split(".")[0]: v for p, v in drifts.items() if np.isfinite(v).all()}
+    rows["mean"] = np.mean(list(rows.values()), axis=0).tolist()
+    for name, (ours, theirs) in rows.items():
+        print(f"{name:62s}{ours:8.3f}{theirs:8.3f}")
 
 
 def inclination(q: np.ndarray, reference: np.ndarray, mounted: bool = False) -> np.ndarray:

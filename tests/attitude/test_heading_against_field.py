@@ -1,5 +1,7 @@
 """Headings and a magnetometer that differ are said to, with the angle; those that agree are not."""
 
+import re
+
 import numpy as np
 import pytest
 from scipy.stats import chi2
@@ -50,7 +52,10 @@ def test_those_that_agree_are_left_alone():
 
 def test_it_is_said_with_the_declination_that_would_explain_it():
     result = attitude.run(log(2, np.radians(15.0))[0])
-    assert "a declination of -14.5 deg" in result.report()
+    (told,) = re.findall(r"a declination of (-?[\d.]+) deg", result.report())
+    (angle,) = (f.detail for f in result.findings if f.kind == "heading_against_field")
+    assert float(told) == pytest.approx(-np.degrees(angle["angle"]), abs=0.06)
+    assert abs(float(told) + 15) < 4 * np.degrees(angle["std"])
     told = attitude.run(log(2, np.radians(15.0))[0], settings={"declination": np.radians(-15.0)})
     assert "against the magnetometer" not in told.report()
     off = attitude.run(log(2, np.radians(15.0))[0], settings={"declination": np.radians(15.0)})

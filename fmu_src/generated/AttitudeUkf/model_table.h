@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{c5a68051-7a82-7c84-a2cf-9d803f6a6c1f}"
-#define MODEL_TOKEN_FMI3 "{19c0d158-56fd-e5b0-18b6-f32d108bcc40}"
+#define MODEL_TOKEN_FMI2 "{2e2a7926-cfe3-6824-5f2e-dc77c461f240}"
+#define MODEL_TOKEN_FMI3 "{a7140ee1-1632-178b-9111-7a926d4de294}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -17,20 +17,20 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 63,
     N_OUTPUTS = 21,
-    N_STATES = 353,
-    N_CONSTANTS = 108,
+    N_STATES = 357,
+    N_CONSTANTS = 110,
     N_NOISE = 0,
     N_VARIABLES = 104
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3107 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3116 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 780518 };
+enum { MODEL_MOST_SAMPLES = 766361 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

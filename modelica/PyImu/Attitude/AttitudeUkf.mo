@@ -383,7 +383,8 @@ it.</td></tr>
 forces has another bias when it has turned over.</td></tr>
 <tr><td>motionBias</td><td>Standard deviation by which the bias of the gyro is another while the
 body turns fast, by 0.5 rad/s and more over 10 s, than at rest; its share of that where it turns
-less. What the model of a gyro lacks shows in motion.</td></tr>
+less. As much again it changes in 100 s of motion. What the model of a gyro lacks shows in
+motion.</td></tr>
 <tr><td>restTime</td><td>A body of which no sample differs from the others for so long is at rest,
 or for 2.5 s where its bias about the vertical is not known to 2e-3 rad/s; 0: never.</td></tr>
 <tr><td>speedTolerance</td><td>Standard deviation of the share by which the accelerations of a body

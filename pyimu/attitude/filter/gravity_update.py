@@ -33,7 +33,7 @@ from pyimu.attitude.filter.quasi_static import (
 from pyimu.attitude.filter.sample import Sample
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.stillness import FAST, STEADY
-from pyimu.attitude.filter.unscented import Estimate
+from pyimu.attitude.filter.unscented import Estimate, doubt
 from pyimu.attitude.filter.variables import LEAST_ACCEL_STD
 from pyimu.attitude.filter.velocity import (
     DRIFT_GAIN,
@@ -94,13 +94,16 @@ MOST_TILT = 0.3
 @dataclass(frozen=True)
 class Body:
     """What is known of the body: whether it ``rests``, with the mean force ``at_rest_force`` (3,),
-    whether it is ``sure`` that it does not drive on, and whether it is ``driven``, as speeds say.
+    whether it is ``sure`` that it does not drive on, whether it is ``driven``, as speeds say, and
+    the ``false_rate`` and ``upright`` (3,) of ``unscented.doubt``.
     """
 
     rests: ca.SX
     at_rest_force: ca.SX
     sure: ca.SX
     driven: ca.SX
+    false_rate: ca.SX
+    upright: ca.SX
 
 
 @dataclass(frozen=True)
@@ -164,7 +167,8 @@ def inclination(
     pushed = ca.fmax(pushed, long.variance)
     contradicts = plausible * _contradicts(measured[0], mean, pushed, x, white, settings)
     motion = replace(motion, variance=variance, slow=slow)
-    given = _measurement(measured, size, motion, plausible, contradicts, settings, h)
+    judged = plausible, contradicts, body.false_rate, body.upright
+    given = _measurement(measured, size, motion, judged, settings, h)
     # A turn on wheels makes the force larger, but not its part along the vertical.
     up = vertical(x)
     seen = ca.if_else(known, ca.dot(up, mean.force), ca.norm_2(mean.force))
@@ -181,18 +185,19 @@ def _lessened(value, resting, most):
     return value + resting * (ca.fmin(value, most) - value)
 
 
-def _measurement(measured, size, motion: Bounded, plausible, contradicts, settings: Settings, h):
-    """What ``_measured`` gave and the ``motion`` as the updates take them."""
+def _measurement(measured, size, motion: Bounded, judged, settings: Settings, h):
+    """What ``_measured`` gave and the ``motion`` as the updates take them; ``judged`` are the last
+    of ``GravityMeasurement``.
+    """
     at = settings.scalar
     return GravityMeasurement(
         *measured,
-        magnitude=size,
-        period=h,
-        motion=motion.variance,
-        lasting=2 * at["motion_time"] * motion.slow * reciprocal(h),
-        coloured=2 * h * at["accel_correlation_time"] * at["accel_std"] ** 2,
-        plausible=plausible,
-        contradicts=contradicts,
+        size,
+        h,
+        motion.variance,
+        2 * at["motion_time"] * motion.slow * reciprocal(h),
+        2 * h * at["accel_correlation_time"] * at["accel_std"] ** 2,
+        *judged,
     )
 
 
@@ -384,6 +389,7 @@ def by_velocity(correct: Callable) -> ca.Function:
         own + moving - given.coloured * ca.SX.eye(3),
         given.plausible,
         x.scaled[6:, :],
+        doubt(x, up, given.false_rate, given.upright),
     )
     contradicted = 1 - (1 - (weight < 1) * given.plausible) * (1 - given.contradicts)
     after = less_sure(after, up, contradicted * given.period)

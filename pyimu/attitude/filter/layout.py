@@ -15,7 +15,7 @@ from pyimu.attitude.filter.tolerances import of_motion, start_values
 from pyimu.attitude.filter.variables import INPUTS, OWN_PARAMETERS
 from pyimu.block.variables import Variable
 
-GRAVITY = 17
+GRAVITY = 21
 """Numbers of a ``GravityMeasurement``."""
 
 
@@ -29,7 +29,8 @@ class GravityMeasurement:
     instead: ``motion`` (2,) (m/s)^2 is its variance across and along the vertical, ``lasting`` how
     many samples a value of it lasts, ``coloured`` (m/s)^2 what a sample's variance has in it
     because the acceleration lasts. ``plausible`` says whether the force may be gravity,
-    ``contradicts`` whether it then contradicts the tilt.
+    ``contradicts`` whether it then contradicts the tilt. ``false_rate`` rad/s and
+    ``upright`` (3,) are those of ``unscented.doubt``.
     """
 
     force: ca.SX
@@ -42,13 +43,15 @@ class GravityMeasurement:
     coloured: ca.SX
     plausible: ca.SX
     contradicts: ca.SX
+    false_rate: ca.SX
+    upright: ca.SX
 
     def pack(self) -> ca.SX:
         return ca.densify(ca.vertcat(*vars(self).values()))
 
     @classmethod
     def unpack(cls, column) -> GravityMeasurement:
-        ends = [0, 3, 6, 9, 10, 11, 13, 14, 15, 16, 17]
+        ends = [0, 3, 6, 9, 10, 11, 13, 14, 15, 16, 17, 18, 21]
         return cls(*ca.vertsplit(column, ends))
 
 

@@ -17,7 +17,13 @@ from math import factorial
 
 import casadi as ca
 
-from pyimu.attitude.filter.unscented import SPREAD, Estimate, N, less_scaled, moved
+from pyimu.attitude.filter.unscented import (
+    SPREAD,
+    Estimate,
+    N,
+    less_scaled,
+    moved,
+)
 from pyimu.attitude.filter.velocity import Push, pushed, rescaled
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import FLOOR, reciprocal, symmetric
@@ -208,6 +214,7 @@ def correct(
     gate_variance=None,
     beyond=1,
     seen=None,
+    unbelieved=None,
 ) -> tuple[Estimate, ca.SX, ca.SX]:
     """The estimate after a measurement of three numbers, its NIS, and its weight.
 
@@ -231,14 +238,20 @@ def correct(
         if innovation_gate is None
         else ca.if_else(nis > innovation_gate, beyond * innovation_gate / nis, 1)
     )
-    scaled = [g * (d * weight) for g, d in zip(gain, inverse, strict=True)]
+    factors_of = [d * weight for d in inverse]
+    scaled = [g * d for g, d in zip(gain, factors_of, strict=True)]
+    left = [] if unbelieved is None else [unbelieved(g) for g in gain]
+
+    def taken(i: int, j: int):
+        whole = sum(g[i] * s[j] for g, s in zip(gain, scaled, strict=True))
+        if j < N:
+            whole -= sum(g[i] * g[j] * d for g, d in zip(left, factors_of))
+        return whole
+
+    covariance = symmetric(cross.shape[0], lambda i, j: x.covariance[i, j] - taken(i, j))
+    if left:
+        scaled = [s - g * d for s, g, d in zip(scaled, left, factors_of, strict=True)]
     change = sum(g * w for g, w in zip(scaled, white, strict=True))
-    covariance = symmetric(
-        cross.shape[0],
-        lambda i, j: (
-            x.covariance[i, j] - sum(g[i] * s[j] for g, s in zip(gain, scaled, strict=True))
-        ),
-    )
     if seen is not None:
         seen = ca.vertcat(*_solved(lower, [seen[i, :] for i in range(3)]))
     scaled = less_scaled(x, ca.horzcat(*scaled), seen)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from pyimu.attitude.filter import late_heading
+from pyimu.attitude.filter import late_heading, turning
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.attitude.filter.drift import SIZES as DRIFT
 from pyimu.attitude.filter.drift import Drift
@@ -72,7 +72,7 @@ class Memory:
     ``lost_for`` (3,) is how many s each gyro axis has been lost, ``same_for`` (8,) how many s gyro
     and accelerometer have not changed, and then each of their axes, while others of its triad did.
     ``sensors`` is the compensation's memory, ``speed_for`` how many s ago there was a speed,
-    ``calm`` that of ``stillness.calmer``, ``turning`` (rad/s)^2 that of ``turning.followed``,
+    ``calm`` that of ``stillness.calmer``, ``turning`` (5,) that of ``turning.followed``,
     ``known`` (rad/s)^2 the variance of the bias about the vertical by all but rests that may sway,
     ``drift`` its walk as the rests show it.
     ``by_scale`` (3,) rad^2/s is the noise of the attitude that ``prediction`` makes of the gyro's
@@ -109,17 +109,17 @@ class Memory:
     @staticmethod
     def pack_estimate(x: Estimate) -> ca.SX:
         """The estimate as a column (82,)."""
-        turning, moving = pack(x.covariance[:N, :N]), pack(x.covariance[N:, N:])
+        angular, moving = pack(x.covariance[:N, :N]), pack(x.covariance[N:, N:])
         both = ca.vec(x.covariance[:N, N:])
         scaled = ca.vec(x.scaled)
-        return ca.densify(ca.vertcat(x.q, x.bias, turning, x.velocity, both, moving, scaled))
+        return ca.densify(ca.vertcat(x.q, x.bias, angular, x.velocity, both, moving, scaled))
 
     @staticmethod
     def estimate_of(column) -> Estimate:
         """The estimate that a column of the state or a working estimate begins with."""
         both = ca.reshape(column[31:49], N, 3)
-        turning, moving = unpack(column[7:28], N), unpack(column[49:55], 3)
-        covariance = ca.blockcat([[turning, both], [both.T, moving]])
+        angular, moving = unpack(column[7:28], N), unpack(column[49:55], 3)
+        covariance = ca.blockcat([[angular, both], [both.T, moving]])
         scaled = ca.reshape(column[SCALED], WHOLE, AXES)
         return Estimate(column[:4], column[4:7], column[28:31], covariance, scaled)
 
@@ -178,7 +178,7 @@ class Memory:
 def memory_sizes(compensation: Compensation) -> tuple[int, ...]:
     """Sizes of what ``Memory.pack_memory`` packs, in its order."""
     held = 7 + sum(SIGNALS[n].size for n in compensation.extra)
-    own = held, 3, 8, len(compensation.start), 1, 1, 1, 1, 3, 1, 1, 2, 1
+    own = held, 3, 8, len(compensation.start), 1, 1, 5, 1, 3, 1, 1, 2, 1
     return 1, 1, 1, 1, 1, 3, 1, 1, *STILLNESS, *DRIFT, 6, 6, *own, MOTION
 
 
@@ -203,7 +203,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         sensors=ca.SX(ca.DM(compensation.start)),
         speed_for=ca.SX(NO_SPEED),
         calm=ca.SX(1),
-        turning=ca.SX(0),
+        turning=turning.start(quaternion.to_matrix(estimate.q)[2, :].T),
         known=ca.SX(0),
         by_scale=ca.SX.zeros(3),
         scales=ca.SX(0),

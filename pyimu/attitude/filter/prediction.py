@@ -365,8 +365,9 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
         )
         turned = turned + ca.if_else(sample.gyro_lost, lost, 0)
     turned = turned + at.memory.by_scale * h
-    before, after = at.memory.turning, _turning(at, sample)
-    in_motion = turning.bias_variance(before, after, settings.scalar["motion_bias"])
+    before, after = at.memory.turning, _turning(at, sample, rest)
+    std = settings.scalar["motion_bias"]
+    in_motion = turning.bias_variance(before, after, rest.surely, std, h)
     return (
         least + (1 - moving) * at.stationary * still + moving * turned + rest.unseen,
         moving * ca.diag(noise[:3, 3:]),
@@ -378,9 +379,11 @@ def added_noise(at: Instant, sample: Sample, rest: Rest):
     )
 
 
-def _turning(at: Instant, sample: Sample):
+def _turning(at: Instant, sample: Sample, rest: Rest):
     """How much the body turns, with this sample: ``Memory.turning``."""
-    return turning.followed(at.memory.turning, sample.rate - at.memory.estimate.bias, at.h)
+    x = at.memory.estimate
+    rate = sample.rate - x.bias
+    return turning.followed(at.memory.turning, rate, vertical(x), rest.surely, at.h)
 
 
 def _place(at: Instant):
@@ -414,11 +417,14 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         kept.motion, x, sample.force, used, pushes, goes_on, may * moves, moves, at.h
     )
     rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
-    body = Body(rests, rest.still.slow_force, rest.sure, driven)
+    field = ca.fmax(kept.field, is_magnetometer(at.u[MAG], at.settings))
+    # With a magnetometer the bias about the vertical shows in the heading.
+    turns_by = _turning(at, sample, rest)
+    false = (1 - field) * turning.false_rate(turns_by, scalar["rate_noise"])
+    body = Body(rests, rest.still.slow_force, rest.sure, driven, false, turns_by[2:])
     force = inclination(kept, sample, x, bounded, turned, at.settings, at.h, body)
     still = _decided(at, x, rest)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
-    field = ca.fmax(kept.field, is_magnetometer(at.u[MAG], at.settings))
     after = Memory(
         x,
         force.quasi,
@@ -435,7 +441,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         sample.sensors,
         speed_for,
         rest.calm,
-        _turning(at, sample),
+        turns_by,
         rest.known,
         ca.sum2(scaled_tilt(x, vertical(x)) ** 2) * (motion.by_scale / SCALE_TIME),
         ca.fmax(kept.scales, _scales(at)),

@@ -59,6 +59,7 @@ from pyimu.attitude.filter.unscented import (
     WHOLE,
     Estimate,
     N,
+    doubt,
     less_scaled,
     moved,
     points_of,
@@ -246,7 +247,16 @@ def _by_velocity() -> ca.Function:
     gate = cholesky(symmetric(3, lambda i, j: ca.dot(own[i, :], own[j, :]) + single[i, j]))
     root = ca.sqrt(given.lasting) * moving
     after, nis, weight = _corrected(
-        x, -x.velocity, root, own, x.factor, up, gate, x.scaled[N:, :], given.plausible
+        x,
+        -x.velocity,
+        root,
+        own,
+        x.factor,
+        up,
+        gate,
+        x.scaled[N:, :],
+        given.plausible,
+        doubt(x.estimate, up, given.false_rate, given.upright),
     )
     contradicted = 1 - (1 - (weight < 1) * given.plausible) * (1 - given.contradicts)
     after = _less_sure(after, up, contradicted * given.period)
@@ -255,11 +265,11 @@ def _by_velocity() -> ca.Function:
 
 
 def _corrected(
-    x: Rooted, innovation, root, off, states, up, gate, seen, beyond=1
+    x: Rooted, innovation, root, off, states, up, gate, seen, beyond=1, unbelieved=None
 ) -> tuple[Rooted, ca.SX, ca.SX]:
     """The estimate after a measurement, its normalised innovation squared, and its weight.
 
-    Its factor (9, 18) is not triangular yet. ``root`` (m, m) is one of the measurement's own
+    Its factor (9, 21) is not triangular yet. ``root`` (m, m) is one of the measurement's own
     variance; ``off`` (m, k) and ``states`` (9, k) are the deviations of measurement and state,
     whose products are their covariances; ``gate`` (m, m) is the factor that normalises the
     innovation. The others are as for ``unscented.correct``. A weight w below 1 leaves P less w
@@ -272,10 +282,12 @@ def _corrected(
     own = forward(gate, innovation)
     nis = ca.dot(own, own)
     weight = ca.if_else(nis > INNOVATION_GATE, beyond * INNOVATION_GATE / nis, 1)
-    change = weight * (gain @ forward(whole[:size, :size], innovation))
+    left = ca.SX(WHOLE, size) if unbelieved is None else unbelieved(gain)
+    change = weight * ((gain - left) @ forward(whole[:size, :size], innovation))
     axes = ca.diagcat(turned_axes(change, up), ca.SX.eye(WHOLE - 3))
+    corrected = ca.horzcat(corrected, left)
     mixed = ca.horzcat(ca.sqrt(weight) * corrected, ca.sqrt(1 - weight) * x.factor)
-    scaled = less_scaled(x.estimate, weight * gain, forward(whole[:size, :size], seen))
+    scaled = less_scaled(x.estimate, weight * (gain - left), forward(whole[:size, :size], seen))
     after = moved(replace(x.estimate, scaled=scaled), change, up)
     q = quaternion.normalized(after.q)
     return Rooted(q, after.bias, after.velocity, axes @ mixed, after.scaled), nis, weight

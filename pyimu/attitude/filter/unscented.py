@@ -19,7 +19,7 @@ from math import pi, tan
 import casadi as ca
 
 from pyimu.symbolic import mrp, quaternion
-from pyimu.symbolic.linear import cholesky, forward, symmetric
+from pyimu.symbolic.linear import FLOOR, cholesky, forward, reciprocal, symmetric
 
 AXES = 3
 """Of the gyro, each with a scale factor of its own."""
@@ -167,6 +167,7 @@ def correct(
     gate_variance=None,
     beyond=1,
     seen=None,
+    unbelieved=None,
 ) -> tuple[Estimate, ca.SX, ca.SX]:
     """The estimate after a measurement, its normalised innovation squared, and its weight.
 
@@ -178,6 +179,7 @@ def correct(
     more than that. Where ``gate_variance`` (m, m) is given, it normalises the innovation instead of
     ``variance``. ``beyond`` is a further factor of the weight there: at 0 what contradicts is not
     used. ``seen`` (m, 3) is what the innovation has of ``Estimate.scaled``, None for nothing.
+    ``unbelieved`` gives the part of a gain that is not used (``doubt``), None for nothing.
     """
     root = cholesky(variance)
     whitened, gain = forward(root, innovation), forward(root, cross.T).T
@@ -186,13 +188,39 @@ def correct(
     weight = 1
     if innovation_gate is not None:
         weight = ca.if_else(nis > innovation_gate, beyond * innovation_gate / nis, 1)
-    change = weight * (gain @ whitened)
-    covariance = symmetric(
-        cross.shape[0], lambda i, j: x.covariance[i, j] - weight * ca.dot(gain[i, :], gain[j, :])
-    )
-    scaled = less_scaled(x, weight * gain, None if seen is None else forward(root, seen))
+    left = None if unbelieved is None else unbelieved(gain)
+    used = gain if left is None else gain - left
+    change = weight * (used @ whitened)
+
+    def taken(i: int, j: int):
+        whole = ca.dot(gain[i, :], gain[j, :])
+        return whole if left is None or j >= N else whole - ca.dot(left[i, :], left[j, :])
+
+    covariance = symmetric(cross.shape[0], lambda i, j: x.covariance[i, j] - weight * taken(i, j))
+    scaled = less_scaled(x, weight * used, None if seen is None else forward(root, seen))
     after = moved(replace(x, covariance=covariance, scaled=scaled), change, up)
     return replace(after, q=quaternion.normalized(after.q)), nis, weight
+
+
+def doubt(x: Estimate, up, false_rate, upright) -> Callable:
+    """The part of a gain (n, m) of gravity that is not believed, as a function of the gain.
+
+    Gravity shows a bias about the vertical by the way in which the body tilts while it turns, and
+    axes that are off by e or a clock look like a bias of e times the rate: ``false_rate`` rad/s, a
+    standard deviation. What is known better than that learns nothing from gravity, what is known
+    less learns: the bias along ``upright`` (3,), the mean of the vertical in body axes, by its
+    square, and the angle about the vertical ``up`` (3,). A correction that is left out leaves the
+    variance, as in the partial updates of Brink 2017 ("Partial-update Schmidt-Kalman filter", J.
+    Guidance 40:2214).
+    """
+    own, false = ca.dot(upright, x.covariance[3:N, 3:N] @ upright), false_rate**2
+    share = ca.fmin(1, false * ca.sumsqr(upright) * reciprocal(own + FLOOR))
+
+    def unbelieved(gain):
+        own = [share * v @ (v.T @ gain[i : i + 3, :]) for i, v in ((0, up), (3, upright))]
+        return ca.vertcat(*own, ca.SX(gain.shape[0] - N, gain.shape[1]))
+
+    return unbelieved
 
 
 def less_scaled(x: Estimate, gain, seen):

@@ -294,8 +294,8 @@ SETTINGS = (
         "motion_bias",
         "rad/s",
         "standard deviation by which the bias of the gyro is another while the body turns fast, by "
-        "0.5 rad/s and more over 10 s, than at rest; its share of that where it turns less. What "
-        "the model of a gyro lacks shows in motion",
+        "0.5 rad/s and more over 10 s, than at rest; its share of that where it turns less. As "
+        "much again it changes in 100 s of motion. What the model of a gyro lacks shows in motion",
         0.0,
     ),
     _setting(
