@@ -108,6 +108,7 @@ MEANING = {
     "reference_line": "the reference has a line that the sensor's signal lacks; it was taken out",
     "reference_norm": "quaternions of another length than one; those near zero count as not seen",
     "reference_order": "the reference attitude fits in another order, or in other axes",
+    "reference_heading_drifts": "the reference's heading drifts slowly: its own, taken out",
     "reference_play": "the reference was taken before a gear with play; that was undone",
     "reference_sideways": "attitudes and positions whose world has another axis up than z: turned",
     "reference_smoothed": "the reference was smoothed without delay; that was undone",

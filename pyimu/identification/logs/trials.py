@@ -15,6 +15,7 @@ from pyimu.identification.reference.align import aligned
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.clock import rebanded
 from pyimu.identification.reference.filter_left import with_filter_left
+from pyimu.identification.reference.heading_drifts import with_steady_heading
 from pyimu.identification.reference.place import (
     at_the_sensor,
     headed,
@@ -63,9 +64,8 @@ def aligned_trials(
 
     fitted = [t for t in map(trial, logs) if t is not None and t.count >= SHORTEST]
     apart = [t for t in map(trial, others) if t is not None and t.count >= SHORTEST]
-    clocked = list(
-        map(with_one_mounting, with_mounting(aligned(fitted, apart, sensor, lines, known)))
-    )
+    clocked = list(with_mounting(aligned(fitted, apart, sensor, lines, known)))
+    clocked = [with_steady_heading(with_one_mounting(t)) for t in clocked]
     return clocked[: len(fitted)], clocked[len(fitted) :]
 
 
