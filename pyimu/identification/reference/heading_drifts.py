@@ -25,20 +25,19 @@ from pyimu.numerics.laws import chi2
 DRIFTS = "reference_heading_drifts"
 """The finding of a reference whose heading drifts."""
 
-BLOCK = 2.0
-"""s; means over so long are compared: an attitude's noise is in none of their sums."""
+BLOCK = 0.5
+"""s; means over so long are compared: within longer ones a body in a hand leans to and fro, and of
+shorter ones an attitude's noise is the larger part."""
 
-SPACINGS = (80.0, 40.0, 20.0, 10.0)
+SPACINGS = (160.0, 80.0, 40.0, 20.0, 10.0)
 """s between the instants at which the drift is found, lines between them."""
 
-LIKELIER = 20.0
-"""nat by which a drift about the vertical must be likelier than one of any axis of the body."""
-
 CHANCE = 1e-6
-"""Probability by which chance may explain as much."""
+"""Probability by which chance may explain as much as a drift does beside biases of all axes of the
+body that change as slowly, and as these do beside it for them to be there."""
 
-FEWEST = 4
-"""Blocks for each instant, and instants, at least."""
+FEWEST, MOST = 4, 64
+"""Blocks for each instant, and instants, at least, and instants at most."""
 
 
 def with_steady_heading(trial: Trial) -> Trial:
@@ -89,7 +88,7 @@ class _Blocks:
         self.time, self.y = time[:, 0], y
         self.base = np.column_stack([np.ones(len(x)), x, *more])
         self.up = up @ np.linalg.lstsq(self.base, y)[0][1:4]
-        self.beside, _ = np.linalg.qr(np.column_stack([self.base, up]))
+        self.beside = np.column_stack([self.base, up])
 
     def likeliest(self) -> Callable[[np.ndarray], np.ndarray] | None:
         """The drift [rad/s] at times [s]; None where none is seen."""
@@ -97,35 +96,54 @@ class _Blocks:
         best, chosen = 0.0, None
         for spacing in SPACINGS:
             count = int((last - first) / spacing) + 1
-            if count < FEWEST or len(self.time) < FEWEST * count:
+            if not FEWEST <= count <= MOST or len(self.time) < FEWEST * count:
                 continue
             at = np.linspace(first, last, count)
             hats = np.array([np.interp(self.time, at, e) for e in np.eye(count)]).T
-            gain = self._gain(hats, self.up)
-            least = 0.5 * float(chi2.isf(CHANCE, count))
-            rival = max(self._gain(hats, np.tile(e, (len(hats), 1))) for e in np.eye(3))
-            worth = gain - count
-            if gain > least and gain - max(rival, 0.0) > LIKELIER and worth > best:
-                best, chosen = worth, (at, hats)
+            biases, drift = _biases(hats), _along(hats, self.up)
+            both = self._gain(self.beside, biases + drift)
+            gain = both - self._gain(self.beside, biases)
+            if gain > _by_chance(count) and gain - count > best:
+                best = gain - count
+                alone = both - self._gain(self.beside, drift) < _by_chance(3 * count)
+                chosen = at, drift + ([] if alone else biases)
         if chosen is None:
             return None
-        at, hats = chosen
-        basis, _ = np.linalg.qr(self.base)
-        left = [_less(basis, v) for v in (self.y, *_columns(hats, self.up))]
-        made = np.column_stack([v.ravel() for v in left[1:]])
+        at, columns = chosen
         # What the reference shows too much the sensor shows too little.
-        found = -np.linalg.lstsq(made, left[0].ravel())[0]
+        found = -self._fitted(self.base, columns)[0][: len(at)]
         return lambda time: np.interp(time, at, found)
 
-    def _gain(self, hats: np.ndarray, axis: np.ndarray) -> float:
-        """nat that a drift about an axis (m, 3) explains."""
-        left = _less(self.beside, self.y)
-        made = np.column_stack([_less(self.beside, c).ravel() for c in _columns(hats, axis)])
-        rest = left.ravel() - made @ np.linalg.lstsq(made, left.ravel())[0]
-        return float(0.5 * left.size * np.log(np.sum(left**2) / np.sum(rest**2)))
+    def _gain(self, beside: np.ndarray, columns: list[np.ndarray]) -> float:
+        """nat that columns explain of the sensor's beside others (m, k), on all axes."""
+        _, left, rest = self._fitted(beside, columns)
+        return float(0.5 * self.y.size * np.log(left / rest))
+
+    def _fitted(
+        self, beside: np.ndarray, columns: list[np.ndarray]
+    ) -> tuple[np.ndarray, float, float]:
+        """Coefficients of columns (m, 3) beside others (m, k), of each axis by itself, and the
+        squares that are left without and with them.
+        """
+        basis, _ = np.linalg.qr(beside)
+        left, *made = (_less(basis, v).ravel() for v in (self.y, *columns))
+        stack = np.column_stack(made)
+        found = np.linalg.lstsq(stack.T @ stack, stack.T @ left)[0]
+        rest = left - stack @ found
+        return found, float(left @ left), float(rest @ rest)
 
 
-def _columns(hats: np.ndarray, axis: np.ndarray) -> list[np.ndarray]:
+def _by_chance(count: int) -> float:
+    """nat that so many columns explain by chance at most."""
+    return 0.5 * float(chi2.isf(CHANCE, count))
+
+
+def _biases(hats: np.ndarray) -> list[np.ndarray]:
+    """What biases that change as slowly are, on each axis of the body."""
+    return [c for e in np.eye(3) for c in _along(hats, np.tile(e, (len(hats), 1)))]
+
+
+def _along(hats: np.ndarray, axis: np.ndarray) -> list[np.ndarray]:
     """What a drift that is one at an instant, about an axis (m, 3), is on each axis (m, 3)."""
     return [h[:, None] * axis for h in hats.T]
 
