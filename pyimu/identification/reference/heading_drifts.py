@@ -36,6 +36,10 @@ CHANCE = 1e-6
 """Probability by which chance may explain as much as a drift does beside biases of all axes of the
 body that change as slowly, and as these do beside it for them to be there."""
 
+LEANS = 0.03
+"""Share of the power of a drift that must not be that of biases: a body that leans by ten degrees
+to and fro. Of one that leans less a drift would be the small difference of large ones."""
+
 FEWEST, MOST = 4, 64
 """Blocks for each instant, and instants, at least, and instants at most."""
 
@@ -101,6 +105,8 @@ class _Blocks:
             at = np.linspace(first, last, count)
             hats = np.array([np.interp(self.time, at, e) for e in np.eye(count)]).T
             biases, drift = _biases(hats), _along(hats, self.up)
+            if _apart(drift, hats) < LEANS:
+                return None
             both = self._gain(self.beside, biases + drift)
             gain = both - self._gain(self.beside, biases)
             if gain > _by_chance(count) and gain - count > best:
@@ -141,6 +147,13 @@ def _by_chance(count: int) -> float:
 def _biases(hats: np.ndarray) -> list[np.ndarray]:
     """What biases that change as slowly are, on each axis of the body."""
     return [c for e in np.eye(3) for c in _along(hats, np.tile(e, (len(hats), 1)))]
+
+
+def _apart(drift: list[np.ndarray], hats: np.ndarray) -> float:
+    """Share of the power of a drift, in the mean, that no bias which changes as slowly has."""
+    basis, _ = np.linalg.qr(hats)
+    left = sum(float(np.sum(_less(basis, c) ** 2)) for c in drift)
+    return left / sum(float(np.sum(c**2)) for c in drift)
 
 
 def _along(hats: np.ndarray, axis: np.ndarray) -> list[np.ndarray]:
