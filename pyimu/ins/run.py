@@ -19,6 +19,7 @@ from pyimu.display.silent import silent
 from pyimu.errors import Finding, UserError
 from pyimu.ins import checks
 from pyimu.ins.askew_limit import with_equal_limits
+from pyimu.ins.creeps import beside_creeps, creeping
 from pyimu.ins.filter.variables import OWN_PARAMETERS
 from pyimu.ins.filtered import Filtered
 from pyimu.ins.integrated import integrated
@@ -177,6 +178,11 @@ def _run(
     job = replace(job, wheels=nhc or measures_speed(recording))
     found, start = job.started(heading0, reference)
     job, found = _with_own_errors(job, found, start, findings, say)
+    creeps = creeping(found, findings, recording.sample_period)
+    if job.fixes is None and creeps is not None:
+        job = replace(job, creeps=creeps)
+        found = job.filtered(start)
+        findings.append(creeps.finding)
     findings += _of_constraint(job, found, start)
     if job.live:
         job = replace(job, still=found.scalar("at_rest") > 0.5)
@@ -200,6 +206,9 @@ def _run(
     if job.fixes is not None:
         return result
     wider = {name: track.widened(result.too_sure) for name, track in tracks.items()}
+    if job.creeps is not None:
+        hides = job.creeps.hides
+        wider = {name: beside_creeps(track, job.still, hides) for name, track in wider.items()}
     return replace(result, tracks=wider)
 
 

@@ -18,8 +18,9 @@ import numpy as np
 from pyimu.ins.between import BESIDE, Change, change_of_velocity
 from pyimu.ins.detector import WINDOW
 from pyimu.ins.noise import Noise
-from pyimu.ins.pushes import FORCE_STAYS, LEAST_SPEED, STEADY_GATE
+from pyimu.ins.pushes import FORCE_STAYS, STEADY_GATE
 from pyimu.ins.short_rests import SWUNG
+from pyimu.ins.shoves import SETTLES
 from pyimu.numerics.laws import chi2
 from pyimu.recording.clock import runs
 
@@ -115,7 +116,7 @@ class _Since:
         """After a change of so much ``score``, with a ``drift`` m/s during the stretch before it,
         of a body of up to ``top`` m/s.
         """
-        moves = change.most**2 > LEAST_SPEED**2 + (STEADY_GATE + 3) * change.variance
+        moves = change.most**2 > SETTLES**2 + UNSURE * change.variance
         moves = bool(moves) or change.angle > TURNED
         as_before = 0.0 if moves else max(_beside_drives(change.velocity, change.variance, top), 0)
         return _Since(
@@ -131,7 +132,7 @@ class _Since:
     @property
     def most_drift(self) -> float:
         """m/s; by which a speed may change within a stretch: no drive goes on as evenly."""
-        return (LEAST_SPEED + DRIFTS * float(np.linalg.norm(self.velocity))) / 3
+        return (SETTLES + DRIFTS * float(np.linalg.norm(self.velocity))) / 3
 
     def rests(self, top: float) -> float:
         """Log of how likely a rest is, with that velocity left, beside a drive of up to ``top``
@@ -159,7 +160,7 @@ def _off(velocity: np.ndarray, variance: float) -> float:
 
 
 def _spread(variance: float) -> float:
-    return variance + (LEAST_SPEED / 3) ** 2
+    return variance + (SETTLES / 3) ** 2
 
 
 def _beside_drives(velocity: np.ndarray, variance: float, top: float) -> float:
@@ -220,7 +221,7 @@ def _unsure(
 ) -> Iterator[int]:
     """Which of the rests have a speed left since the one before, beyond ``UNSURE``."""
     for last, k in pairwise(sorted(rests)):
-        since = _since(last, stretches[: k + 1], changes, period, LEAST_SPEED)
+        since = _since(last, stretches[: k + 1], changes, period, SETTLES)
         if k in since and since[k].moved and since[k].off > UNSURE:
             yield k
 
@@ -234,7 +235,7 @@ def _rests_of(
     speeds = [c.speed for c in changes.values()]
     # Of a change that is hardly known the speed is mostly error.
     known = [c.speed for c in changes.values() if c.speed**2 > (STEADY_GATE + 3) * c.variance]
-    top = max(known or speeds, default=LEAST_SPEED)
+    top = max(known or speeds, default=SETTLES)
     best = [(score, -1) for score in _at_first(stretches, changes, period)]
     # Where a rest that the body has not left since begins: small steps of its force add up.
     stays = list(range(len(stretches)))
@@ -279,7 +280,7 @@ def _since(
 ) -> dict[int, _Since]:
     """What is known of the velocity at each stretch after the rest ``at``, or a drive where it is
     not ``rested``, as long as something is, by the likeliest choice of what is pushed in between.
-    ``LEAST_SPEED`` and ``FORCE_STAYS`` are limits, and count as three standard deviations.
+    ``SETTLES`` and ``FORCE_STAYS`` are limits, and count as three standard deviations.
     """
     found = {at: _Since(np.zeros(3), 0.0, np.eye(3), 0.0)}
     for k in range(at + 1, min(at + MOST_STRETCHES, len(stretches))):
@@ -299,7 +300,7 @@ def _at_first(
     stretches: list[_Stretch], changes: dict[tuple[int, int], Change], period: float
 ) -> Iterator[float]:
     """Log of how likely it is that all that lies before each stretch is driven or pushed."""
-    since = _since(0, stretches, changes, period, LEAST_SPEED, rested=False)
+    since = _since(0, stretches, changes, period, SETTLES, rested=False)
     yield 0.0
     for at in range(1, len(stretches)):
         driven = since[at].score if at in since else UNLIKELY

@@ -18,6 +18,8 @@ from pyimu.ins.detector import Detected, detect
 from pyimu.ins.filter.layout import open_std
 from pyimu.ins.filter.prediction import LASTS
 from pyimu.ins.noise import Noise
+from pyimu.ins.quiet import quiet_until
+from pyimu.ins.shoves import shoved
 from pyimu.ins.speeds import driven
 from pyimu.ins.witnesses import REFERENCE, Witness, denied
 from pyimu.model.part import Part
@@ -46,8 +48,20 @@ def rest_at_start(recording: Recording, part: Part | None, gravity: float) -> Re
 
     A rest of a gyro of unknown null has a mean rate of up to what the part's tolerance allows, and
     its force another size: both are taken off before the rest is looked for, and put back. A turn
-    that is no faster than that cannot be told from a null.
+    that is no faster than that cannot be told from a null. What is louder than the rest before it
+    is a motion that begins.
     """
+    rest = _rest_at_start(recording, part, gravity)
+    if rest.declared or not shows_noise(rest):
+        return rest
+    stop = quiet_until(recording, rest.rows.stop)
+    if stop == rest.rows.stop:
+        return rest
+    quiet = _rest_at_start(recording.slice(0, stop), part, gravity)
+    return quiet if shows_noise(quiet) else rest
+
+
+def _rest_at_start(recording: Recording, part: Part | None, gravity: float) -> Rest:
     if part is None:
         return find_rest(recording, gravity)
     null, size = _by_tolerance(recording, part, gravity)
@@ -127,9 +141,11 @@ def stops_of(
             "them in the samples"
         )
     found = detect(recording.time, recording.gyro, recording.accel, noise, recording.sample_period)
-    drives, moves, said = _driven(recording, found.still, noise, witnesses)
+    shoves, noise = shoved(recording.accel, found.still, noise, recording.sample_period)
+    still = found.still & ~shoves
+    drives, moves, said = _driven(recording, still, noise, witnesses)
     findings += said
-    still = found.still & ~moves
+    still &= ~moves
     for kind, stretches in (("steady_turn", found.steady), ("steady_drive", drives)):
         for start, stop in stretches:
             still[start:stop] = False

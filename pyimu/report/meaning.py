@@ -102,6 +102,7 @@ MEANING = {
     "rest_denied": "what looked like a rest, and was none by a position, a speed or a reference",
     "rest_moves": "rests during which a position, a speed or a reference goes a way: they are none",
     "unsure_rests": "rests before which a speed came up that did not go: one may be a gentle push",
+    "creeps": "drives so slow that slower ones would count as rests",
     "rests_or_drives": "drives at one speed, which may be the rests, and the rests the drives",
     "reference_scale": "the reference's path has the shape of the estimate's in another size",
     "reference_lag": "the reference lags as one behind a low-pass filter does; it was undone",

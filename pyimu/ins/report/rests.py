@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from pyimu.ins.creeps import CREEP
 from pyimu.ins.outcome import Outcome
 from pyimu.report.numbers import counted, number, quantity
 
@@ -66,6 +67,18 @@ def unsure(a: Outcome) -> Iterator[str]:
                 f"At {counted(f.count, 'rest')}, the first at {f.detail['first']:.6g} s, a speed "
                 "is left by what came before: it or the rest before may be a push too gentle to be "
                 f"seen, and the path further off than its standard deviation; {_would_tell(a)}"
+            )
+
+
+def creeps(a: Outcome) -> Iterator[str]:
+    """That a body creeps, and what its rests may hide."""
+    for f in a.findings:
+        if f.kind == "creeps":
+            yield (
+                f"The body creeps {counted(f.count, 'time')}, the first at "
+                f"{f.detail['first']:.6g} s, at less than {quantity(CREEP, 'm/s')}: slower creeps "
+                "look like a rest, and the standard deviations allow for "
+                f"{quantity(f.detail['hides'], 'm/s', 2)} in each; {_would_tell(a)}"
             )
 
 

@@ -12,7 +12,16 @@ from pyimu.ins.filter.variables import STATUS_NAMES
 from pyimu.ins.measured import CONTRADICTED
 from pyimu.ins.outcome import Outcome
 from pyimu.ins.report.held import held
-from pyimu.ins.report.rests import FIXES, in_doubt, on_a_foot, steady, unsure, witnessed, wrong_rest
+from pyimu.ins.report.rests import (
+    FIXES,
+    creeps,
+    in_doubt,
+    on_a_foot,
+    steady,
+    unsure,
+    witnessed,
+    wrong_rest,
+)
 from pyimu.ins.too_sure import WRONG_REST
 from pyimu.report.findings import in_line
 from pyimu.report.numbers import counted, number, quantity
@@ -75,7 +84,7 @@ def _in_motion_at_first(settings: Mapping[str, float]) -> str:
 
 def notes(a: Outcome) -> list[str]:
     """What should be known first: where there is nothing to update with, and what was refused."""
-    out = [held(a), *on_a_foot(a), *witnessed(a), *in_doubt(a), *unsure(a)]
+    out = [held(a), *on_a_foot(a), *witnessed(a), *in_doubt(a), *unsure(a), *creeps(a)]
     kinds = {f.kind: f for f in a.findings}
     out += [text[0].upper() + text[1:] for text in about_contradicted(a.findings)]
     if "no_rest" in kinds:
