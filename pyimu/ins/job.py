@@ -17,7 +17,6 @@ from pyimu.block.block import Block
 from pyimu.block.parameters import number, with_values
 from pyimu.errors import Finding
 from pyimu.ins.crabbing import Crabbing, crabbing
-from pyimu.ins.creeps import Creeps
 from pyimu.ins.filter.ins_block import ins_of_log
 from pyimu.ins.filter.layout import Layout
 from pyimu.ins.filtered import Filtered, filtered
@@ -70,7 +69,7 @@ class Job:
     ``clean`` is the recording without the errors that the part knows; ``still`` (n,) marks rests,
     which the filter looks for where it is ``live``; ``fixes`` are its positions and velocities,
     None without. Of a body that is first seen in motion, ``later`` is a rest of its samples, and
-    ``begun`` the path by these positions; of one that creeps, ``creeps`` says when.
+    ``begun`` the path by these positions.
     """
 
     recording: Recording
@@ -89,7 +88,6 @@ class Job:
     crabs: Crabbing | None = None
     later: Rest | None = None
     begun: Track | None = None
-    creeps: Creeps | None = None
 
     @cached_property
     def layout(self) -> Layout:
@@ -174,8 +172,6 @@ class Job:
         more = None
         if fixes and self.fixes is not None:
             more = self.fixes.of_antenna(self._antenna(start))
-        elif self.fixes is None and self.creeps is not None:
-            more = self.creeps.columns(len(self.recording))
         return InputGrid(marked, self.part, names, more=more)
 
     def with_lasting(self, found: Filtered, start: Start, say: Callable[..., None]) -> Job:

@@ -122,7 +122,7 @@ def fixes_of(
         if name == "position" and len(rows):
             values = values - _origin(values[rows])
         found[name] = rows, values[rows], std[rows]
-        columns |= measured_columns(name, values, std, rows[1:] if name == "position" else rows)
+        columns |= _columns(name, values, std, rows[1:] if name == "position" else rows)
     if not columns:
         return None
     none = np.zeros(0, dtype=int), np.zeros((0, 3)), np.zeros(0)
@@ -236,7 +236,7 @@ def _std(
     return std
 
 
-def measured_columns(
+def _columns(
     name: str, values: np.ndarray, std: np.ndarray, rows: np.ndarray
 ) -> dict[str, np.ndarray]:
     valid = np.zeros(len(values))

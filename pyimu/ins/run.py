@@ -178,11 +178,8 @@ def _run(
     job = replace(job, wheels=nhc or measures_speed(recording))
     found, start = job.started(heading0, reference)
     job, found = _with_own_errors(job, found, start, findings, say)
-    creeps = creeping(found, findings, recording.sample_period)
-    if job.fixes is None and creeps is not None:
-        job = replace(job, creeps=creeps)
-        found = job.filtered(start)
-        findings.append(creeps.finding)
+    creeps = None if job.fixes is not None else creeping(found, findings)
+    findings += [] if creeps is None else [creeps]
     findings += _of_constraint(job, found, start)
     if job.live:
         job = replace(job, still=found.scalar("at_rest") > 0.5)
@@ -206,8 +203,8 @@ def _run(
     if job.fixes is not None:
         return result
     wider = {name: track.widened(result.too_sure) for name, track in tracks.items()}
-    if job.creeps is not None:
-        hides = job.creeps.hides
+    if creeps is not None:
+        hides = creeps.detail["hides"]
         wider = {name: beside_creeps(track, job.still, hides) for name, track in wider.items()}
     return replace(result, tracks=wider)
 
