@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from attitude_cases import GRAVITY, N_ACCEL, H, N, part
 from drives import bodies
-from drives.cases import hand
+from drives.cases import hand, matched, off_scale
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
@@ -67,11 +67,24 @@ def test_the_tilt_of_an_arm_follows_gravity_where_its_gyro_is_off():
     """
     for seed in (6, 11):
         log = bodies.arm(np.random.default_rng([96, seed, 8]), sensors=bodies.AS_BOUGHT)
-        found = run(Recording.from_arrays(time=log.time, gyro=log.gyro, accel=log.accel))
-        axes = (Rotation.from_quat(q, scalar_first=True) for q in (found.q, log.q))
-        up, true = (a.inv().apply([0, 0, 1]) for a in axes)
-        tilt = np.degrees(2 * np.arcsin(np.linalg.norm(up - true, axis=1) / 2))
-        assert np.sqrt(np.mean(tilt[1000:] ** 2)) < 2.0
+        assert tilt_error(log) < 2.0
+
+
+def test_the_tilt_of_what_turns_to_and_fro_follows_gravity_where_its_gyro_is_off():
+    """Of gyros whose scale factors are 2 % off. Where the tilt that these may have made became
+    unsure in 50 s, it was 0.7 deg off, root mean square.
+    """
+    logs = [off_scale(matched)(np.random.default_rng([97, i])) for i in range(4)]
+    assert np.sqrt(np.mean([tilt_error(log) ** 2 for log in logs])) < 0.5
+
+
+def tilt_error(log) -> float:
+    """deg; root mean square from the thousandth sample of a log of ``drives`` on."""
+    found = run(Recording.from_arrays(time=log.time, gyro=log.gyro, accel=log.accel))
+    axes = (Rotation.from_quat(q, scalar_first=True) for q in (found.q, log.q))
+    up, true = (a.inv().apply([0, 0, 1]) for a in axes)
+    tilt = 2 * np.arcsin(np.linalg.norm(up - true, axis=1) / 2)
+    return float(np.degrees(np.sqrt(np.mean(tilt[1000:] ** 2))))
 
 
 def test_a_hand_whose_velocity_stays_bounded_is_estimated_the_same_without_it():

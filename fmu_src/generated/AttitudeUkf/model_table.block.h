@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{c06115be-fbd7-d1bf-7349-565efbe604a0}"
-#define MODEL_TOKEN_FMI3 "{b6b829d4-e981-3264-f6b3-77411b6ca5eb}"
+#define MODEL_TOKEN_FMI2 "{073732e8-683e-a396-89d7-dbfeb9411109}"
+#define MODEL_TOKEN_FMI3 "{0023551f-38a7-b6bb-fe3f-81c99bccbf87}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -27,14 +27,14 @@ enum {
 enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3116 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 766361 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 766400 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 766361 };
+enum { MODEL_MOST_SAMPLES = 766400 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 766361.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 766400.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

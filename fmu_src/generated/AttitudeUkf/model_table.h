@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{2e2a7926-cfe3-6824-5f2e-dc77c461f240}"
-#define MODEL_TOKEN_FMI3 "{a7140ee1-1632-178b-9111-7a926d4de294}"
+#define MODEL_TOKEN_FMI2 "{1a33cd1f-228a-3ce4-9aa7-b668c2136a2e}"
+#define MODEL_TOKEN_FMI3 "{8bbfcbec-de85-f6f7-d058-8bc73c30917c}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -30,7 +30,7 @@ enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3116 };
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 766361 };
+enum { MODEL_MOST_SAMPLES = 766400 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
