@@ -27,9 +27,9 @@ at 5 to 10 deg/h, which is as much in 10 s to a minute."""
 
 NOMINAL_MOTION_BIAS = 1.6e-3
 """rad/s; the setting ``motion_bias`` for such a gyro: in motion its bias is another than at rest by
-what its model lacks. Chosen on recordings 02, 11 and 26 of BROAD (``benchmarks/attitude_real.py``):
-with 1e-3, by which the bias itself is another there, the heading drifts by 4 % less in motion, and
-the inclination of all recordings is 1.5 % more off."""
+what its model lacks. On recordings 02, 11 and 26 of BROAD it is another by 0.9e-3 itself
+(``pyimu.attitude.filter.turning``). From 1e-3 to 2.5e-3 their headings drift by the same to 2 % in
+motion, and so is the inclination of all recordings (``benchmarks/attitude_real.py``)."""
 
 NOMINAL_RATE_NOISE = 0.8e-3
 """sqrt(s); the setting ``rate_noise`` for such a gyro: axes off by a percent, and its timing, for

@@ -124,7 +124,7 @@ class State:
             sensors=self.sensors,
             speed_for=ca.SX(0),
             calm=ca.SX(0),
-            turning=ca.SX(0),
+            turning=ca.SX.zeros(5),
             known=ca.SX(0),
             by_scale=ca.SX.zeros(3),
             scales=ca.SX(0),

@@ -17,13 +17,7 @@ from math import factorial
 
 import casadi as ca
 
-from pyimu.attitude.filter.unscented import (
-    SPREAD,
-    Estimate,
-    N,
-    less_scaled,
-    moved,
-)
+from pyimu.attitude.filter.unscented import SPREAD, Estimate, N, less_scaled, moved
 from pyimu.attitude.filter.velocity import Push, pushed, rescaled
 from pyimu.symbolic import mrp, quaternion
 from pyimu.symbolic.linear import FLOOR, reciprocal, symmetric
