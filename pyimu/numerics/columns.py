@@ -1,4 +1,4 @@
-"""Columns of values at other instants."""
+"""Columns of values: at other instants, and beside others."""
 
 from __future__ import annotations
 
@@ -13,3 +13,8 @@ def columns_at(
     Outside of ``time`` they are ``beyond``, or without that the first and the last.
     """
     return np.column_stack([np.interp(instants, time, v, beyond, beyond) for v in values.T])
+
+
+def unexplained(basis: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """What of values (m,) or (m, k) an orthonormal ``basis`` (m, j) does not explain."""
+    return values - basis @ (basis.T @ values)

@@ -418,12 +418,9 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     motion, bounded = with_sample(
         kept.motion, x, sample.force, used, pushes, goes_on, may * moves, moves, at.h
     )
-    rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
     field = ca.fmax(kept.field, is_magnetometer(at.u[MAG], at.settings))
-    # With a magnetometer the bias about the vertical shows in the heading.
     turns_by = _turning(at, sample, rest)
-    false = (1 - field) * turning.false_rate(turns_by, scalar["rate_noise"])
-    body = Body(rests, rest.still.slow_force, rest.sure, driven, false, turns_by[2:])
+    body = _body(at, rest, driven, field, turns_by)
     force = inclination(kept, sample, x, bounded, turned, at.settings, at.h, body)
     still = _decided(at, x, rest)
     vertical_noise = at.memory.vertical_noise + _about_the_vertical(x, noise[0])
@@ -465,6 +462,14 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
         force.measurement.pack(),
         flags.pack(),
     ]
+
+
+def _body(at: Instant, rest: Rest, driven, field, turns_by) -> Body:
+    """What is known of the body; ``turns_by`` (5,) is what ``turning.followed`` keeps."""
+    rests = (rest.resting + at.stationary > 0) * (rest.still.span >= MEAN_TIME)
+    # With a magnetometer the bias about the vertical shows in the heading.
+    false = (1 - field) * turning.false_rate(turns_by, at.settings.scalar["rate_noise"])
+    return Body(rests, rest.still.slow_force, rest.sure, driven, false, turns_by[2:])
 
 
 def _flags(

@@ -37,6 +37,14 @@ NOWHERE = np.zeros(UNKNOWN)
 """The point that is tracked, the gravity that was added, heading, scale and filter as they are."""
 
 
+def verticals(attitude: np.ndarray) -> np.ndarray:
+    """The vertical (n, 3) in the axes of bodies with attitudes (n, 4); zero where one is."""
+    known, up = np.any(attitude != 0.0, axis=1), np.zeros((len(attitude), 3))
+    body = Rotation.from_quat(attitude[known], scalar_first=True)
+    up[known] = body.apply([0.0, 0.0, 1.0], inverse=True)
+    return up
+
+
 @dataclass(frozen=True, eq=False)
 class Place:
     """What is not known of where a reference force acts: the arm (3,) m from its point to the
@@ -80,8 +88,7 @@ class Place:
         q = u[:, COLUMNS["attitude"]]
         known = np.any(q != 0.0, axis=1)
         if gravity_std and known.any():
-            body, up = Rotation.from_quat(q[known], scalar_first=True), np.zeros((len(u), 3))
-            up[known] = body.apply([0.0, 0.0, 1.0], inverse=True)
+            up = verticals(q)
             force = u[known, OWN["accel"]]
             across[known] = force - np.sum(force * up[known], axis=1)[:, None] * up[known]
             forces[GRAVITY], forces[HEADING] = up.T, np.cross(up, across).T

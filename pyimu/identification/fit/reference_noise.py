@@ -31,7 +31,7 @@ from pyimu.identification.fit.noise_floor import beyond_own, lowness, own_noise,
 from pyimu.identification.fit.response import power_through_dynamics
 from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.standing import all_noise, standing
-from pyimu.identification.fit.trial import Doubt, Trial
+from pyimu.identification.fit.trial import MEASURED, Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
@@ -45,9 +45,6 @@ REST = 1 / 16
 
 LEAST_THROUGH = 0.01
 """Share of its power from which on noise that went through dynamics is told from nothing."""
-
-MEASURED = ("rate", "force")
-"""Kinds of reference that are measured as they are, and never differentiated."""
 
 
 def with_reference_noise(

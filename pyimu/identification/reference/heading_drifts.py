@@ -12,14 +12,15 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from pyimu.errors import Finding
 from pyimu.identification.fit.damping import slopes
 from pyimu.identification.fit.inputs import copied
+from pyimu.identification.fit.place import verticals
 from pyimu.identification.fit.trial import SETTLE, Trial, marked
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS
+from pyimu.numerics.columns import unexplained
 from pyimu.numerics.laws import chi2
 
 DRIFTS = "reference_heading_drifts"
@@ -57,18 +58,11 @@ def with_steady_heading(trial: Trial) -> Trial:
         return trial
     drift = found(trial.time)
     u = copied(trial.u)
-    u[:, OWN[trial.kind]] = trial.u[:, OWN[trial.kind]] - drift[:, None] * _up(trial)
+    u[:, OWN[trial.kind]] = trial.u[:, OWN[trial.kind]] - drift[:, None] * seen.vertical
     inside = marked(trial.segments, len(trial.time))
     size = float(np.sqrt(np.mean(drift[inside] ** 2)))
     said = Finding(DRIFTS, trial.kind, 1, {"level": size})
     return replace(trial, u=u, findings=(*trial.findings, said))
-
-
-def _up(trial: Trial) -> np.ndarray:
-    """The vertical (n, 3) in the axes of the reference's body."""
-    attitude = np.array(trial.u[:, COLUMNS["attitude"]])
-    attitude[~np.any(attitude, axis=1)] = [1.0, 0.0, 0.0, 0.0]
-    return Rotation.from_quat(attitude, scalar_first=True).apply([0.0, 0.0, 1.0], inverse=True)
 
 
 class _Blocks:
@@ -79,7 +73,8 @@ class _Blocks:
 
     def __init__(self, trial: Trial) -> None:
         rows = max(round(BLOCK / trial.h), 1)
-        up, own = _up(trial), trial.u[:, OWN[trial.kind]]
+        self.vertical = up = verticals(trial.u[:, COLUMNS["attitude"]])
+        own = trial.u[:, OWN[trial.kind]]
         # At the ends of a segment a curve through attitudes is bent as it likes.
         inner = [(a + SETTLE, b - SETTLE) for a, b in trial.segments]
         starts = [s for a, b in inner for s in range(a, b - rows + 1, rows)]
@@ -132,7 +127,7 @@ class _Blocks:
         squares that are left without and with them.
         """
         basis, _ = np.linalg.qr(beside)
-        left, *made = (_less(basis, v).ravel() for v in (self.y, *columns))
+        left, *made = (unexplained(basis, v).ravel() for v in (self.y, *columns))
         stack = np.column_stack(made)
         found = np.linalg.lstsq(stack.T @ stack, stack.T @ left)[0]
         rest = left - stack @ found
@@ -152,18 +147,13 @@ def _biases(hats: np.ndarray) -> list[np.ndarray]:
 def _apart(drift: list[np.ndarray], hats: np.ndarray) -> float:
     """Share of the power of a drift, in the mean, that no bias which changes as slowly has."""
     basis, _ = np.linalg.qr(hats)
-    left = sum(float(np.sum(_less(basis, c) ** 2)) for c in drift)
+    left = sum(float(np.sum(unexplained(basis, c) ** 2)) for c in drift)
     return left / sum(float(np.sum(c**2)) for c in drift)
 
 
 def _along(hats: np.ndarray, axis: np.ndarray) -> list[np.ndarray]:
     """What a drift that is one at an instant, about an axis (m, 3), is on each axis (m, 3)."""
     return [h[:, None] * axis for h in hats.T]
-
-
-def _less(basis: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """What of values (m, k) an orthonormal basis does not explain."""
-    return values - basis @ (basis.T @ values)
 
 
 def _means(values: np.ndarray, starts: list[int], rows: int) -> np.ndarray:

@@ -24,6 +24,7 @@ from pyimu.identification.fit.whiten import Autoregressive
 from pyimu.identification.reference.moving import LEAST_ROWS, in_own_band
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS
+from pyimu.numerics.columns import unexplained
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.play import JOINTS, Joint, stays_behind, without_play
 
@@ -124,14 +125,14 @@ class _Judge:
             noise = Autoregressive.fit([(rest, self.time, self.segments)])
             white = self._white(noise, np.column_stack([x, shown]))
             basis, _ = np.linalg.qr(white[:, :-1])
-            self.known.append((noise, basis, _beside(basis, white[:, -1])))
+            self.known.append((noise, basis, unexplained(basis, white[:, -1])))
 
     def gain(self, joint: Joint, width: float, backward: bool = False) -> float:
         """nat that a play of a ``width`` explains."""
         change = in_band(self.trial, _change(self.trial, joint, width, backward))
         gain = 0.0
         for column, (noise, basis, left) in zip(change.T, self.known, strict=True):
-            moved = _beside(basis, self._white(noise, column[:, None])[:, 0])
+            moved = unexplained(basis, self._white(noise, column[:, None])[:, 0])
             gain -= 0.5 * len(left) * np.log(np.sum((left - moved) ** 2) / np.sum(left**2))
         return float(gain)
 
@@ -149,8 +150,3 @@ class _Judge:
 
     def _white(self, noise: Autoregressive, columns: np.ndarray) -> np.ndarray:
         return noise.whiten(columns, self.time, self.segments)
-
-
-def _beside(basis: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """What of a column is not explained by an orthonormal basis."""
-    return column - basis @ (basis.T @ column)

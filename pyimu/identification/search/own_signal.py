@@ -19,9 +19,8 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.high_differences import sensor_white
 from pyimu.identification.fit.inputs import Inputs, own_rate, reference_input
 from pyimu.identification.fit.noise_fit import declared_variances
-from pyimu.identification.fit.reference_noise import MEASURED
 from pyimu.identification.fit.response import predict
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import MEASURED, Trial
 from pyimu.model.kinds import OWN
 
 AT_ZERO = ("bias_asymmetry", "dead_zone", "hard_dead_zone")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from pyimu.errors import Finding
 from pyimu.ins.creeps import CREEP
 from pyimu.ins.outcome import Outcome
 from pyimu.report.numbers import counted, number, quantity
@@ -30,10 +31,15 @@ STEADY = (
 """Kinds of finding that look like a rest: what the sensor did, and how that was told."""
 
 
+def of_kind(a: Outcome, kind: str) -> Iterator[Finding]:
+    """What was found of a kind."""
+    return (f for f in a.findings if f.kind == kind)
+
+
 def steady(a: Outcome) -> Iterator[str]:
     """What looked like a rest and was told to be none by the samples."""
     for kind, what, why in STEADY:
-        for said in _longest([f.detail for f in a.findings if f.kind == kind]):
+        for said in _longest([f.detail for f in of_kind(a, kind)]):
             yield f"The sensor {what}, {said}: that looks like a rest{why}"
 
 
@@ -49,37 +55,33 @@ def _longest(stretches: list[dict[str, Any]]) -> Iterator[str]:
 
 def in_doubt(a: Outcome) -> Iterator[str]:
     """That rests and drives may be the other way round."""
-    for f in a.findings:
-        if f.kind == "rests_or_drives":
-            yield (
-                f"{f.count} stretches at a constant speed are as alike as the rests: a log that "
-                f"begins {'at rest' if not a.still[0] else 'in a drive'} would show the same, with "
-                "rests and drives the other way round, and the path would be another; "
-                + _would_tell(a)
-            )
+    for f in of_kind(a, "rests_or_drives"):
+        yield (
+            f"{f.count} stretches at a constant speed are as alike as the rests: a log that "
+            f"begins {'at rest' if not a.still[0] else 'in a drive'} would show the same, with "
+            "rests and drives the other way round, and the path would be another; " + _would_tell(a)
+        )
 
 
 def unsure(a: Outcome) -> Iterator[str]:
     """That a speed seems to be left at rests."""
-    for f in a.findings:
-        if f.kind == "unsure_rests":
-            yield (
-                f"At {counted(f.count, 'rest')}, the first at {f.detail['first']:.6g} s, a speed "
-                "is left by what came before: it or the rest before may be a push too gentle to be "
-                f"seen, and the path further off than its standard deviation; {_would_tell(a)}"
-            )
+    for f in of_kind(a, "unsure_rests"):
+        yield (
+            f"At {counted(f.count, 'rest')}, the first at {f.detail['first']:.6g} s, a speed "
+            "is left by what came before: it or the rest before may be a push too gentle to be "
+            f"seen, and the path further off than its standard deviation; {_would_tell(a)}"
+        )
 
 
 def creeps(a: Outcome) -> Iterator[str]:
     """That a body creeps, and what its rests may hide."""
-    for f in a.findings:
-        if f.kind == "creeps":
-            yield (
-                f"The body creeps {counted(f.count, 'time')}, the first at "
-                f"{f.detail['first']:.6g} s, at less than {quantity(CREEP, 'm/s')}: slower creeps "
-                "look like a rest, and the standard deviations allow for "
-                f"{quantity(f.detail['hides'], 'm/s', 2)} in each; {_would_tell(a)}"
-            )
+    for f in of_kind(a, "creeps"):
+        yield (
+            f"The body creeps {counted(f.count, 'time')}, the first at "
+            f"{f.detail['first']:.6g} s, at less than {quantity(CREEP, 'm/s')}: slower creeps "
+            "look like a rest, and the standard deviations allow for "
+            f"{quantity(f.detail['hides'], 'm/s', 2)} in each; {_would_tell(a)}"
+        )
 
 
 def _would_tell(a: Outcome) -> str:
@@ -91,13 +93,12 @@ def _would_tell(a: Outcome) -> str:
 
 def on_a_foot(a: Outcome) -> Iterator[str]:
     """That a log is that of a foot, where nobody said so."""
-    for f in a.findings:
-        if f.kind == "on_a_foot":
-            yield (
-                f"This looks like a sensor on a foot, by {counted(f.count, 'step')}: the velocity "
-                "of its stances was taken for 0, as --zupt foot does; --zupt live, declared and "
-                "off do not"
-            )
+    for f in of_kind(a, "on_a_foot"):
+        yield (
+            f"This looks like a sensor on a foot, by {counted(f.count, 'step')}: the velocity "
+            "of its stances was taken for 0, as --zupt foot does; --zupt live, declared and "
+            "off do not"
+        )
 
 
 WITNESSES = {
