@@ -18,7 +18,7 @@ from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
 from pyimu.recording.formats.oxts import CLOCK, TIME, is_oxts
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.messages import imu_message, pose_message
-from pyimu.recording.naming.name import named, thermometer
+from pyimu.recording.naming.name import Name, named, thermometer
 from pyimu.recording.naming.triads import others, surest, triads
 from pyimu.recording.naming.words import TRUTHS
 from pyimu.recording.optical import optical_body
@@ -271,6 +271,7 @@ def stated(reader: Reader, rate: float | None) -> ForeignMap | None:
     names = [named(cell) for cell in reader.header]
     times = [name for name in names if name.is_time and not set(name.words) & TRUTHS]
     times = times or [name for name in names if name.cell in reader.clocks]
+    times = _with_numbers(times, reader) if len(times) > 1 else times
     if len(times) > 1 or len(set(reader.header)) < len(reader.header):
         return None
     own = own_groups(reader.header)
@@ -301,6 +302,12 @@ def stated(reader: Reader, rate: float | None) -> ForeignMap | None:
     if not any(target.startswith(("gyro", "accel")) for target in columns.values()):
         return None
     return ForeignMap(columns=columns)
+
+
+def _with_numbers(names: Sequence[Name], reader: Reader) -> list[Name]:
+    """Those of the ``names`` whose columns hold numbers, or dates."""
+    there = {reader.header[k] for k in reader.numeric()}
+    return [name for name in names if name.cell in there]
 
 
 def merged(

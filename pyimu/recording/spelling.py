@@ -47,6 +47,7 @@ WORDS = {
     "kelvin": "K",
     "µt": "uT",
     "μt": "uT",
+    "ʯt": "uT",
     "ut": "uT",
     "nt": "nT",
     "microtesla": "uT",

@@ -8,7 +8,7 @@ from rolling import rolls
 from scipy.io import savemat
 
 from pyimu import inspect, read_recording
-from pyimu.recording.formats.layout import told_from
+from pyimu.recording.formats.told import told_from
 from pyimu.recording.guess.numbers import force_unit, warmth_unit
 from pyimu.recording.naming.name import named
 from pyimu.recording.naming.triads import surest, triads

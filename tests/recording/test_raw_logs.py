@@ -14,8 +14,8 @@ from turns import turned as attitudes
 
 from pyimu import Recording, inspect, read_recording
 from pyimu.errors import UserError
-from pyimu.recording.formats.layout import told_from
 from pyimu.recording.formats.suffix import open_reader
+from pyimu.recording.formats.told import told_from
 from pyimu.recording.guess.numbers import force_unit, rate_unit, sensitivities, time_unit
 from pyimu.recording.guess.proposal import proposed
 from pyimu.recording.log import read_reference

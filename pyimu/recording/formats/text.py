@@ -18,9 +18,10 @@ from pyarrow import csv as pacsv
 from pyimu.errors import Finding, UserError
 from pyimu.recording.formats.cells import MISSING, is_number, padded
 from pyimu.recording.formats.clock_times import ClockTimes
-from pyimu.recording.formats.layout import HEAD, UNCLOSED, Layout, layout_of
+from pyimu.recording.formats.layout import UNCLOSED, layout_of
 from pyimu.recording.formats.lines import UTF_16, Body, is_comment, is_gzip, lines, opened
 from pyimu.recording.formats.reader import Columns, Reader
+from pyimu.recording.formats.told import HEAD, Layout
 
 LAST = 20
 """Lines behind the last whole row, at most, that are no rows: one cut off, and remarks. With more

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyimu.recording.guess.gravity_turning import LIKE, turning_of_gravity
-from pyimu.units import STANDARD_GRAVITY, parse
+from pyimu.units import STANDARD_GRAVITY
 
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "day": 86400.0}
 """Units in which clocks count, and the serial dates of spreadsheets."""
@@ -278,23 +278,6 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
     if largest > FASTEST:
         return UnitGuess("deg/s", f"{largest:.4g} rad/s would be faster than anything turns")
     return UnitGuess(None, f"rad/s or deg/s? {_lacking(force, period)} to tell")
-
-
-def angle_of_rate(
-    unit: str, said: str, angles: np.ndarray, force: np.ndarray | None, period: float | None
-) -> UnitGuess:
-    """What a gyro's numbers (n, 3) are of which the header says an angle's ``unit``, as it ``said``
-    it: that a second, or the angles between samples ``period`` s apart, by how gravity turns.
-    """
-    asked = UnitGuess(f"{unit}/s", f"the header says {said}: a second, of a rate?")
-    if force is None or period is None:
-        return asked
-    slope = turning_of_gravity(angles, force, period)
-    each = 1 / period
-    if slope is None or not 1 / LIKE < slope / parse(unit).factor / each < LIKE:
-        return asked
-    why = f"the header says {said}, and gravity turns so far from sample to sample"
-    return UnitGuess(f"{unit}/s", why, each)
 
 
 def _lacking(force: np.ndarray | None, period: float | None) -> str:

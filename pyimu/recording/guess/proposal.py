@@ -10,6 +10,7 @@ from pyimu.numerics.columns import columns_at
 from pyimu.recording.columns import GROUP_OF, XYZ, own_name
 from pyimu.recording.counter import Unwrapped
 from pyimu.recording.formats.reader import Reader
+from pyimu.recording.guess.angles import angle_of_rate
 from pyimu.recording.guess.by_numbers import Picked, by_numbers, missing
 from pyimu.recording.guess.clock_column import add_time
 from pyimu.recording.guess.first_rows import Numbers
@@ -18,7 +19,6 @@ from pyimu.recording.guess.numbers import (
     SECONDS,
     STATED,
     UnitGuess,
-    angle_of_rate,
     counts,
     force_unit,
     rate_unit,

@@ -107,7 +107,8 @@ def _columns(guesses: Sequence[Guess]) -> list[str]:
     lines = []
     for guess in guesses:
         if guess.unit is None:
-            choices = ("count",) if guess.sizes else guess.choices or CHOICES[guess.group]
+            choices = guess.choices or (() if guess.sizes else CHOICES[guess.group])
+            choices = (*choices, *(("count",) if guess.sizes else ()))
             lines += [_remarked(f"# {_line(guess, u)}", guess.why) for u in choices]
             continue
         unit = guess.unit if guess.value is None else "count"

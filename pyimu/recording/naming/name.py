@@ -49,9 +49,9 @@ class Name:
     @property
     def is_time(self) -> bool:
         """Whether it is called a time, none between rows, and is in no unit that is none of times:
-        ``T(°)``.
+        ``T(°)``; ``Chip Time()`` is one.
         """
-        other = self.unit is not None and self.clock is None
+        other = self.unit not in (None, "1") and self.clock is None
         if self.axis or other or set(self.words) & STEPS:
             return False
         return bool(set(self.words) & (TIMES | MORE_TIMES | set(TICKS)))
