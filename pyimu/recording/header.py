@@ -21,6 +21,7 @@ from pyimu.recording.columns import (
     written_as,
 )
 from pyimu.recording.counts import Scale
+from pyimu.recording.formats.mixed_rows import OF_OTHERS
 
 LARGEST = 1e12
 """In SI; no quantity of a log is larger, and such a number is taken for a missing one."""
@@ -185,7 +186,7 @@ class Header:
         return self._scale[name].unit
 
     def _unknown(self, name: str, cell: str) -> None:
-        if self._crowded:
+        if self._crowded or cell.endswith(OF_OTHERS):
             return
         near = name not in UNITS and units.did_you_mean(name, UNITS, cutoff=0.8)
         if near and (self._ours or cell not in self._cells):

@@ -17,6 +17,7 @@ from pyimu.recording.column_map import BODY, ForeignMap
 from pyimu.recording.columns import ANGLES, GROUP_OF, XYZ, own_name
 from pyimu.recording.formats.oxts import CLOCK, TIME, is_oxts
 from pyimu.recording.formats.reader import Reader
+from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.messages import imu_message, pose_message
 from pyimu.recording.naming.name import Name, named, thermometer
 from pyimu.recording.naming.triads import others, surest, triads
@@ -38,6 +39,9 @@ def recognised(reader: Reader, wanted: str = "sensor", rate: float | None = None
     """What is known of the log in ``reader``, None where nothing is; ``wanted`` is what it must
     hold, see ``Header``, ``rate`` [Hz] what a map says of one without times.
     """
+    joined = _in_rows_of_their_own(reader) if reader.words else None
+    if joined is not None:
+        return STATED, joined
     if is_own(reader.header):
         return None
     for name, test in (*(TRUTHS_OF if wanted == "reference" else ()), *FORMATS):
@@ -308,6 +312,18 @@ def _with_numbers(names: Sequence[Name], reader: Reader) -> list[Name]:
     """Those of the ``names`` whose columns hold numbers, or dates."""
     there = {reader.header[k] for k in reader.numeric()}
     return [name for name in names if name.cell in there]
+
+
+def _in_rows_of_their_own(reader: Reader) -> ForeignMap | None:
+    """The map of a table that states every unit, and in which each sensor has rows of its own."""
+    found = []
+    for word in reader.words:
+        columns = stated(open_reader(reader.path, {"imu": word}), None)
+        if columns is None:
+            return None
+        found.append((reader.path.name, replace(columns, topics={"imu": word})))
+    columns = stated(reader, None)
+    return None if columns is None else replace(columns, files=tuple(found))
 
 
 def merged(

@@ -21,6 +21,7 @@ from pyimu.recording.formats.marked import (
     sentences,
     vectornav,
 )
+from pyimu.recording.formats.mixed_rows import OF_OTHERS, Mixed, mixed_rows
 from pyimu.recording.formats.novatel import novatel
 from pyimu.recording.formats.optical import optical
 from pyimu.recording.formats.sections import Sections, sections
@@ -89,7 +90,7 @@ def layout_of(path: Path, topic: str = "") -> Layout:
     behind = sections(head)
     if behind is not None:
         return replace(_behind(behind), code=code_of(path))
-    found = replace(_of_table(head), code=code_of(path))
+    found = replace(_of_table(head, topic), code=code_of(path))
     for row, line in enumerate(head[: found.first - 1], 1):
         line = line.rstrip("\r\n")
         if not is_comment(line) and len(found.cells(line)) > 1 and found.is_open(line):
@@ -107,14 +108,37 @@ def _behind(table: Sections) -> Layout:
     return replace(found, marked=marked, clocks=table.clocks)
 
 
-def _of_table(head: Sequence[str]) -> Layout:
-    """The layout of a table, in which thousands may stand apart."""
+def _of_table(head: Sequence[str], topic: str) -> Layout:
+    """The layout of a table, in which thousands may stand apart, or rows of several sensors."""
+    mixed = mixed_rows(head, topic)
+    if mixed is not None:
+        return _of_mixed(head, mixed)
     rewrite = without_marks(head)
     if rewrite is None:
         return told_from(head)
     found = told_from([rewrite(line.rstrip("\r\n")) + "\n" for line in head])
     marked = Marked(found.names, rewrite, "thousands that stand apart", found.clocks)
     return replace(found, marked=marked)
+
+
+def _of_mixed(head: Sequence[str], mixed: Mixed) -> Layout:
+    """The layout of the rows that are read of a table of several sensors; a column that is empty in
+    them has no name that says what it is.
+    """
+    found = told_from([line for line in head if mixed.keeps(line)])
+    names = tuple(
+        f"column {k + 1} {OF_OTHERS}" if k in mixed.empty else name
+        for k, name in enumerate(found.names)
+    )
+    marked = Marked(
+        names,
+        lambda line: line if mixed.keeps(line) else None,
+        mixed.said,
+        found.clocks,
+        word=mixed.word,
+        words=mixed.others if mixed.joined else (),
+    )
+    return replace(found, names=names, marked=marked)
 
 
 def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
@@ -132,6 +156,8 @@ def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
         there = [word for word in GNSS_LOGGER if gnss_logger(head, word)]
         if there:
             raise UserError(f"{path}: has no topic {topic}; there are {', '.join(there)}")
+        if mixed_rows(head, topic) is not None:
+            return None
         raise UserError(NO_TOPICS.format(path))
     there = next((t for t in GNSS_LOGGER[:2] if gnss_logger(head, t) and _holds(path, t)), None)
     if there is not None:
