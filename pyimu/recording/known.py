@@ -20,13 +20,13 @@ from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.messages import imu_message, pose_message
 from pyimu.recording.naming.name import Name, named, thermometer
-from pyimu.recording.naming.triads import others, surest, triads
+from pyimu.recording.naming.triads import Triad, others, surest, triads
 from pyimu.recording.naming.words import TRUTHS
 from pyimu.recording.optical import optical_body
 from pyimu.recording.programs import PROGRAMS
 from pyimu.recording.vectors import triad_map, unnamed
 from pyimu.recording.xsens import xsens
-from pyimu.units import FREEZING
+from pyimu.units import FREEZING, same_dimension
 
 STATED = "a table that states its units"
 """What a log is called whose header says all of it."""
@@ -84,10 +84,10 @@ def _left_out(columns: Sequence[str], at: Sequence[int]) -> Finding:
 def is_own(header: Sequence[str]) -> bool:
     """Whether the header is one of a recording of the package, and no other names are beside it.
 
-    A ``temperature [degC]`` alone is in many others.
+    A ``time [s]`` or a ``temperature [degC]`` alone are in many others.
     """
     own = own_groups(header)
-    if not own - {"temperature"}:
+    if not own - {"time", "temperature"}:
         return False
     if "time" not in own and any(named(cell).is_time for cell in header):
         return False
@@ -266,9 +266,11 @@ TRUTHS_OF = (("KITTI's oxts, by its description", _oxts_truth),)
 """Logs that hold a reference for other sensors, too."""
 
 
-def stated(reader: Reader, rate: float | None) -> ForeignMap | None:
-    """The map of a table that states every unit it needs, and leaves no choice; else None. Without
-    times its ``rate`` must be known.
+def stated(
+    reader: Reader, rate: float | None, enough: tuple[str, ...] = ("gyro", "accel")
+) -> ForeignMap | None:
+    """The map of a table that states every unit it needs, and leaves no choice; else None, also
+    where it has none of the vectors that are ``enough``. Without times its ``rate`` must be known.
 
     Columns named as those of a recording are what they say.
     """
@@ -303,9 +305,27 @@ def stated(reader: Reader, rate: float | None) -> ForeignMap | None:
     warm = thermometer(names)
     if warm is not None and warm.unit in FREEZING and "temperature" not in own:
         columns[warm.cell] = f"temperature [{warm.unit}]"
-    if not any(target.startswith(("gyro", "accel")) for target in columns.values()):
+    if not any(target.startswith(enough) for target in columns.values()):
+        return None
+    both = {"gyro", "accel"} <= {target.partition("_")[0] for target in columns.values()}
+    if not both and _may_hold_more(names, found, columns):
         return None
     return ForeignMap(columns=columns)
+
+
+def _may_hold_more(names: Sequence[Name], found: Sequence[Triad], taken: Mapping[str, str]) -> bool:
+    """Whether a table has a vector beside those ``taken`` that no word tells, and whose unit is
+    that of an angle, as careless headers have it of a gyro: its numbers may tell it.
+    """
+    known = {k for triad in found if triad.score > 0 for k in triad.positions}
+    known |= {k for k, name in enumerate(names) if name.cell in taken}
+    at = others([name.cell for name in names], known)
+    units = [{names[k].unit for k in three} for three in at]
+    return any(None not in u and len(u) == 1 and _is_angle(*u) for u in units)
+
+
+def _is_angle(unit: str | None) -> bool:
+    return unit not in (None, "1") and same_dimension(unit, "rad")
 
 
 def _with_numbers(names: Sequence[Name], reader: Reader) -> list[Name]:
@@ -316,14 +336,18 @@ def _with_numbers(names: Sequence[Name], reader: Reader) -> list[Name]:
 
 def _in_rows_of_their_own(reader: Reader) -> ForeignMap | None:
     """The map of a table that states every unit, and in which each sensor has rows of its own."""
-    found = []
+    own = stated(reader, None)
+    if own is None:
+        return None
+    files, there = [], {target.partition(" ")[0] for target in own.columns.values()} - {"time"}
     for word in reader.words:
-        columns = stated(open_reader(reader.path, {"imu": word}), None)
-        if columns is None:
+        its = stated(open_reader(reader.path, {"imu": word}), None, ("gyro", "accel", "mag"))
+        if its is None:
             return None
-        found.append((reader.path.name, replace(columns, topics={"imu": word})))
-    columns = stated(reader, None)
-    return None if columns is None else replace(columns, files=tuple(found))
+        more = {c: t for c, t in its.columns.items() if t.partition(" ")[0] not in there}
+        there |= {target.partition(" ")[0] for target in more.values()} - {"time"}
+        files.append((reader.path.name, ForeignMap(columns=more, topics={"imu": word})))
+    return replace(own, files=tuple(files))
 
 
 def merged(

@@ -123,6 +123,23 @@ def open_log(reader: Reader) -> ForeignMap | None:
     return ForeignMap(columns=columns)
 
 
+def witmotion(reader: Reader) -> ForeignMap | None:
+    """A table of WitMotion's program for its wireless sensors (its manual, "Record"): the sensor's
+    own clock, where that is filled in, and the time at which the computer had the sample else.
+    """
+    rate, force, field = (
+        [f"{n} {a}({u})" for a in "XYZ"]
+        for n, u in (("Angular velocity", "°/s"), ("Acceleration", "g"), ("Magnetic field", "ʯt"))
+    )
+    time = next((c for c in ("Chip Time()", "Time") if c in reader.clocks), None)
+    if time is None or not {"Chip Time()", *rate, *force} <= set(reader.header):
+        return None
+    columns = {time: "time [s]"} | triad_map(rate, "gyro", "deg/s") | triad_map(force, "accel", "g")
+    columns |= triad_map(field, "mag", "uT") if set(field) <= set(reader.header) else {}
+    warm = next((c for c in reader.header if c in ("Temperature(℃)", "Temperature(°C)")), None)
+    return ForeignMap(columns=columns | ({} if warm is None else {warm: "temperature [degC]"}))
+
+
 def bag_text(reader: Reader) -> ForeignMap | None:
     """``imu.txt`` of the data sets of UZH (FPV, event cameras), which rpg's scripts write of bags:
     s since 1970, rad/s, m/s^2.
@@ -236,6 +253,7 @@ PROGRAMS: tuple[tuple[str, Callable[[Reader], ForeignMap | None]], ...] = (
     ("Gyroflow's log, by its description", gyroflow),
     ("GnssLogger, by its description", gnss_logger),
     ("OpenLog Artemis, by its firmware", open_log),
+    ("WitMotion, by its manual", witmotion),
     ("imu.txt of a bag, by its names", bag_text),
     ("RoNIN, by its description", ronin),
     ("Empatica E4, by its description", empatica),

@@ -86,3 +86,149 @@ def test_each_sensor_in_rows_of_its_own(units, word, log, tmp_path):
     np.testing.assert_allclose(found.gyro, log[1], atol=1e-6)
     np.testing.assert_allclose(found.accel, log[2], atol=1e-5)
     assert not any("other rows" in str(f) for f in found.findings)
+
+
+def test_flysight_s_lines_of_each_sensor(log, tmp_path):
+    """The magnetometer's lines, which come more seldom, are further columns."""
+    field = np.outer(1 + 0.1 * np.sin(log[0]), [0.2, -0.1, 0.4])
+    imu = rows(["$IMU"] * N, log[0], np.degrees(log[1]), log[2] / G, np.full(N, 28.5))
+    mag = rows(["$MAG"] * N, log[0], field, np.full(N, 27.0))
+    head = [
+        *("$FLYS,1", "$VAR,FIRMWARE_VER,v1", "$COL,BARO,time,pressure", "$UNIT,BARO,s,Pa"),
+        *("$COL,MAG,time,x,y,z,temperature", "$UNIT,MAG,s,gauss,gauss,gauss,deg C"),
+        "$COL,IMU,time,wx,wy,wz,ax,ay,az,temperature",
+        *("$UNIT,IMU,s,deg/s,deg/s,deg/s,g,g,g,deg C", "$DATA", "$BARO,0.001,101325"),
+    ]
+    lines = [line for k in range(N) for line in ((imu[k], mag[k]) if k % 5 == 0 else (imu[k],))]
+    found = read_recording(written(tmp_path / "log.csv", [*head, *lines]))
+    agrees(found, log)
+    np.testing.assert_allclose(found.mag[::5], field[::5] * 1e-4, rtol=1e-5)
+    assert found.temperature[0] == pytest.approx(28.5)
+
+
+# Times
+
+
+def test_the_sensor_s_own_clock_goes_before_the_computer_s(log, tmp_path):
+    """WitMotion's table: a wireless sensor's samples arrive five at a time; its magnetometer's unit
+    is misspelled.
+    """
+    chip = [f"2024-1-5 10:20:{t:06.3f}".replace(".", ":") for t in log[0]]
+    came = [f"10:20:{t - t % 0.05:06.3f}" for t in log[0] + 1e-9]
+    names = [(log[2] / G, "Acceleration {}(g)"), (np.degrees(log[1]), "Angular velocity {}(°/s)")]
+    names.append((np.full((N, 3), 20.0), "Magnetic field {}(ʯt)"))
+    head = ",".join(form.format(a) for _, form in names for a in "XYZ")
+    lines = [f"Time,Device name,Chip Time(),{head},Temperature(℃)"]
+    lines += rows(came, ["unit"] * N, chip, *(v for v, _ in names), np.full(N, 28.5))
+    found = read_recording(written(tmp_path / "log.csv", lines))
+    agrees(found, log)
+    assert np.ptp(np.diff(found.time)) < 1e-6 and not any(
+        f.kind == "coarse_stamps" for f in found.findings
+    )
+    np.testing.assert_allclose(found.mag, 2e-5)
+
+
+@pytest.mark.parametrize("order", [slice(None, None, -1), np.r_[N // 2 : N, 0 : N // 2]])
+def test_rows_out_of_order_are_told_of(order, log, tmp_path):
+    """The newest first, as of a database; two halves exchanged. Nobody is asked for a rate."""
+    lines = ["timestamp,ax,ay,az", *rows(1.6e9 + log[0][order], log[2][order], form="{:.13g}")]
+    said = inspect(written(tmp_path / "log.csv", lines, "utf-8")).report()
+    assert "the time runs backwards" in said and "sort the rows by time" in said
+    assert "no column is a time" not in said
+
+
+def test_a_temperature_called_t_is_no_time(log, tmp_path):
+    warmth = 25 + np.random.default_rng(2).normal(0, 0.1, N)
+    lines = [f"{NAMES},t", *rows(log[2], log[1], warmth)]
+    assert "no column is a time" in inspect(written(tmp_path / "log.csv", lines)).report()
+
+
+# Increments
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        "dtheta_x,dtheta_y,dtheta_z,dv_x,dv_y,dv_z",
+        ",".join(f"delta_{n}[{k}]" for n in ("angle", "velocity") for k in range(3)),
+        "dAngX [deg],dAngY [deg],dAngZ [deg],dVelX [m/s],dVelY [m/s],dVelZ [m/s]",
+    ],
+)
+@pytest.mark.parametrize("degrees", [False, True])
+def test_increments_are_rates_and_forces_times_the_sample_rate(names, degrees, log, tmp_path):
+    """Times 100 Hz; neither is taken for the rate or the force itself."""
+    degrees = degrees or "[deg]" in names
+    angles = (np.degrees(log[1]) if degrees else log[1]) / 100
+    lines = [f"time [s],{names}", *rows(log[0], angles, log[2] / 100, form="{:.12g}")]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines), tmp_path), log)
+
+
+@pytest.mark.parametrize("last", [False, True])
+def test_increments_without_names(last, log, tmp_path):
+    """The inputs of navigation programs: a time before or behind the six numbers."""
+    columns = [log[1] / 100, log[2] / 100]
+    columns = [*columns, log[0]] if last else [456000 + log[0], *columns]
+    lines = rows(*columns, by=" ", form="{:.12g}")
+    agrees(by_its_map(written(tmp_path / "log.txt", lines), tmp_path), log)
+
+
+# Numbers that are written otherwise
+
+
+def _units(cells):
+    units = ["s", *["m/s2"] * 3, *["rad/s"] * 3]
+    return ",".join(f"{c} {u}" for c, u in zip(cells, units, strict=True))
+
+
+def _hexadecimal(cells):
+    numbers = [float(cells[0]) * 1e3, *(float(c) / G * 2048 for c in cells[1:4])]
+    numbers += [np.degrees(float(c)) * 131 for c in cells[4:]]
+    return ",".join(f"0x{round(n) & 0xFFFF:04X}" for n in numbers)
+
+
+WRITTEN = {
+    "units": (f"time,{NAMES}", _units),
+    "minus": (f"time [s],{NAMES}", lambda cells: ",".join(cells).replace("-", "\u2212")),
+    "fortran": (f"t {NAMES.replace(',', ' ')}", lambda cells: " ".join(f"{c}D+00" for c in cells)),
+    "commas": (f"time,{NAMES}", lambda cells: ",".join(c.replace(".", ",") for c in cells)),
+    "hexadecimal": (f"t_ms,{NAMES}", _hexadecimal),
+}
+
+
+@pytest.mark.parametrize("way", WRITTEN)
+def test_numbers_that_are_written_otherwise(way, log, tmp_path):
+    """A unit in each cell, the minus of printers, Fortran's exponent, decimal commas between
+    commas, hexadecimal digits.
+    """
+    head, write = WRITTEN[way]
+    cells = [line.split(",") for line in rows(log[0], log[2], log[1], form="{:.6f}")]
+    path = written(tmp_path / "log.csv", [head, *map(write, cells)])
+    coarse = way == "hexadecimal"
+    found = by_its_map(path, tmp_path)
+    agrees(found, log, gyro=1e-4 if coarse else 1e-6, accel=3e-3 if coarse else 1e-5)
+
+
+def test_words_with_digits_are_no_numbers_with_units(log, tmp_path):
+    """A device called ``3V`` and an address in hexadecimal digits beside usual numbers."""
+    named = (f"{n} [{'m/s^2' if n[0] == 'a' else 'rad/s'}]" for n in NAMES.split(","))
+    head = f"time [s],name,at,{','.join(named)}"
+    lines = [head, *rows(log[0], ["3V"] * N, ["0x1F"] * N, log[2], log[1])]
+    agrees(read_recording(written(tmp_path / "log.csv", lines)), log)
+
+
+# Names
+
+
+def test_an_accelerometer_that_only_its_unit_tells_is_not_lost(log, tmp_path):
+    """Beside a gyro whose header states its unit, and a force without gravity."""
+    head = "Tiempo(ms);AcelX(m/s²);AcelY(m/s²);AcelZ(m/s²);GiroX(rad/s);GiroY(rad/s);GiroZ(rad/s)"
+    head += ";LinX(m/s²);LinY(m/s²);LinZ(m/s²)"
+    lines = [head, *rows(1000 * log[0], log[2], log[1], 0 * log[2], by=";")]
+    agrees(read_recording(written(tmp_path / "log.csv", lines)), log)
+
+
+def test_counts_of_a_thermometer_have_no_unit_of_temperatures(log, tmp_path):
+    lines = ["time [s]," + NAMES + ",temp", *rows(*log[:1], log[2], log[1], np.full(N, -2876))]
+    found = inspect(written(tmp_path / "log.csv", lines)).proposals[0]
+    assert "temperature" not in found.groups
+    assert any("temp may be the temperature: counts" in note for note in found.notes)

@@ -10,6 +10,7 @@ from pathlib import Path
 from pyimu.errors import UserError
 from pyimu.recording.formats.bodies import total_capture
 from pyimu.recording.formats.by_word import rows_by_word
+from pyimu.recording.formats.flysight import flysight
 from pyimu.recording.formats.headed import headed
 from pyimu.recording.formats.labelled import labelled
 from pyimu.recording.formats.lines import CARRIAGE, code_of, is_comment, lines
@@ -24,9 +25,11 @@ from pyimu.recording.formats.marked import (
 from pyimu.recording.formats.mixed_rows import OF_OTHERS, Mixed, mixed_rows
 from pyimu.recording.formats.novatel import novatel
 from pyimu.recording.formats.optical import optical
+from pyimu.recording.formats.plain_numbers import Plain, plain_numbers
 from pyimu.recording.formats.sections import Sections, sections
 from pyimu.recording.formats.thousands import without_marks
 from pyimu.recording.formats.told import HEAD, Layout, told_from
+from pyimu.recording.naming.name import named
 
 UNCLOSED = "a quotation mark is not closed, so that the cells behind it are one"
 
@@ -109,16 +112,23 @@ def _behind(table: Sections) -> Layout:
 
 
 def _of_table(head: Sequence[str], topic: str) -> Layout:
-    """The layout of a table, in which thousands may stand apart, or rows of several sensors."""
+    """The layout of a table, whose numbers may be written otherwise, or its rows be of several
+    sensors.
+    """
     mixed = mixed_rows(head, topic)
     if mixed is not None:
         return _of_mixed(head, mixed)
     rewrite = without_marks(head)
-    if rewrite is None:
+    plain = plain_numbers(head) if rewrite is None else Plain(rewrite, "thousands that stand apart")
+    if plain is None:
         return told_from(head)
-    found = told_from([rewrite(line.rstrip("\r\n")) + "\n" for line in head])
-    marked = Marked(found.names, rewrite, "thousands that stand apart", found.clocks)
-    return replace(found, marked=marked)
+    found = told_from([plain.rewrite(line.rstrip("\r\n")) + "\n" for line in head])
+    names = tuple(
+        f"{name} [{plain.units[k]}]" if k in plain.units and named(name).unit is None else name
+        for k, name in enumerate(found.names)
+    )
+    marked = Marked(names, plain.rewrite, plain.said, found.clocks)
+    return replace(found, names=names, marked=marked)
 
 
 def _of_mixed(head: Sequence[str], mixed: Mixed) -> Layout:
@@ -147,7 +157,8 @@ def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
     Raises UserError for a ``topic`` that is not there.
     """
     if topic:
-        found = gnss_logger(head, topic) or total_capture(head, topic) or _by_word(head, topic)
+        readings = (gnss_logger, total_capture, flysight, _by_word)
+        found = next((m for reading in readings if (m := reading(head, topic)) is not None), None)
         if found is not None:
             return found
         bodies = total_capture(head)
@@ -165,6 +176,7 @@ def _marked(head: Sequence[str], path: Path, topic: str) -> Marked | None:
     rows = [line for line in head if line.strip() and not is_comment(line)]
     return (
         novatel(head)
+        or flysight(head)
         or vectornav(rows)
         or sentences(rows)
         or total_capture(rows)

@@ -17,6 +17,9 @@ from pyimu.recording.naming.words import COUNTERS, TRUTHS
 CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
 """Of a column of them."""
 
+SELDOM = 0.1
+"""Share of the steps of a time that may go the other way."""
+
 
 def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | None) -> float | None:
     """Add the time, or else the ``rate``; gives the sample period [s] where it is known."""
@@ -26,7 +29,9 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
     at = at or sorted(clocks)
     if not at:
         at = [k for k in numbers.positions[:2] if rises(numbers.of([k]))]
-    candidates = []
+        at = at or [k for k in numbers.positions[-1:] if _is_even(numbers.of([k]))]
+    candidates: list[tuple[int, np.ndarray, UnitGuess]] = []
+    disordered: list[tuple[int, np.ndarray, UnitGuess]] = []
     for k in at:
         values = Unwrapped(*SECONDS.values()).add(numbers.of([k]))
         if not names[k].is_time and _counts_rows(values):
@@ -34,6 +39,11 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
         elif rises(values) or (names[k].is_time or k in clocks) and _mean_rate(values) is not None:
             guess = CLOCK if k in clocks else _time_guess(names[k], values)
             candidates.append((k, values, guess))
+        elif (names[k].is_time or k in clocks) and _is_out_of_order(values):
+            values = np.sort(values)  # reading says in which row it falls
+            guess = CLOCK if k in clocks else _time_guess(names[k], values)
+            disordered.append((k, values, guess))
+    candidates = candidates or disordered
     if not candidates:
         found.rate = rate or reader.rate
         return None if found.rate is None else 1 / found.rate
@@ -64,6 +74,22 @@ def _mean_rate(values: np.ndarray) -> float | None:
     known = values[np.isfinite(values)]
     span = float(known[-1] - known[0]) if len(known) > 1 else 0.0
     return (len(known) - 1) / span if span > 0 and np.all(np.diff(known) >= 0) else None
+
+
+def _is_even(values: np.ndarray) -> bool:
+    """Whether numbers rise in even steps: behind the samples stands their time, or their count."""
+    step = np.diff(values.astype(float))
+    return rises(values) and float(np.ptp(step)) < SELDOM * float(np.median(step))
+
+
+def _is_out_of_order(values: np.ndarray) -> bool:
+    """Whether times seldom fall, or seldom rise: those of rows that were sorted by something else,
+    or of several logs, one behind the other. What is called ``t`` and does both is none.
+    """
+    step = np.diff(values[np.isfinite(values.astype(float))])
+    step = step[step != 0]
+    falls = float(np.mean(step < 0)) if len(step) else 0.0
+    return 0 < falls < SELDOM or falls > 1 - SELDOM
 
 
 def rises(values: np.ndarray) -> bool:

@@ -59,3 +59,14 @@ class Numbers:
         joined = [np.concatenate(column)[:MOST] for column in zip(*pieces, strict=True)]
         joined = joined if len(joined) == 1 else [c.astype(float) for c in joined]
         return dict(zip(positions, joined, strict=True))
+
+
+class PerSecond(Numbers):
+    """The columns of ``numbers`` times the ``rate`` [Hz]: increments from row to row a second."""
+
+    def __init__(self, numbers: Numbers, rate: float) -> None:
+        self._numbers, self.rate = numbers, rate
+        self.positions = numbers.positions
+
+    def of(self, positions: Sequence[int]) -> np.ndarray:
+        return self._numbers.of(positions) * self.rate

@@ -171,6 +171,13 @@ def warmth_unit(warmth: np.ndarray) -> UnitGuess:
     return UnitGuess(None, "degC or K?")
 
 
+def are_counts_of_warmth(warmth: np.ndarray) -> bool:
+    """Whether the temperatures (n,) are whole numbers that no unit of them has in electronics."""
+    known = warmth[np.isfinite(warmth)]
+    beyond = len(known) and (known.min() < -WARM[1] or known.max() > WARM_K[1])
+    return bool(beyond and np.all(known == np.rint(known)))
+
+
 def counts(values: np.ndarray) -> bool:
     """Whether all numbers are whole, and not few of them."""
     known = values[np.isfinite(values)]

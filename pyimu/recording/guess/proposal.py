@@ -15,10 +15,12 @@ from pyimu.recording.guess.by_numbers import Picked, by_numbers, missing
 from pyimu.recording.guess.clock_column import add_time
 from pyimu.recording.guess.first_rows import Numbers
 from pyimu.recording.guess.guessed import Guess, Proposal
+from pyimu.recording.guess.increments import add_increments, add_named_increments
 from pyimu.recording.guess.numbers import (
     SECONDS,
     STATED,
     UnitGuess,
+    are_counts_of_warmth,
     counts,
     force_unit,
     rate_unit,
@@ -31,6 +33,8 @@ from pyimu.recording.naming.references import angles, spots
 from pyimu.recording.naming.triads import surest, triads
 from pyimu.recording.optical import question
 from pyimu.units import FREEZING, same_dimension
+
+TO_SAY = "whose size and zero the data sheet says"
 
 ZEROS = "every number of it is zero: was it logged?"
 """Of a vector in which nothing is to be seen."""
@@ -90,8 +94,9 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
         place = {} if away & set(place.values()) else place
         away |= set(place.values())
         if not question(reader):
-            picked |= by_numbers(found, reader, numbers, period, away)
-    for group in ("accel", "gyro"):
+            _by_numbers(found, reader, numbers, period, away, picked)
+    stepped = {"gyro", "accel"} & set(found.groups)
+    for group in () if stepped else ("accel", "gyro"):
         if picked[group] is None and not question(reader):
             named_ones = [p for v in vectors for p in v.positions] + [*place.values()]
             picked[group] = missing(found, group, reader, numbers, picked, period, named_ones)
@@ -108,6 +113,23 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     add_place(found, reader, place)
     _own(found, reader)
     return found
+
+
+def _by_numbers(
+    found: Proposal,
+    reader: Reader,
+    numbers: Numbers,
+    period: float | None,
+    away: set[int],
+    picked: dict[str, Picked],
+) -> None:
+    """Pick the vectors that no name tells, or add them where they are increments."""
+    add_named_increments(found, reader, numbers, period)
+    if {"gyro", "accel"} & set(found.groups):
+        return
+    picked |= by_numbers(found, reader, numbers, period, away)
+    if picked["accel"] is None and picked["gyro"] is None:
+        add_increments(found, reader, numbers, period, away)
 
 
 def _surest(found: Proposal, vectors: list, group: str) -> Picked:
@@ -196,7 +218,12 @@ def _temperature(found: Proposal, reader: Reader, numbers: Numbers) -> None:
         guess = UnitGuess(unit, f"the header says {warm.said}")
         at = found.header.index(warm.cell)
         if unit is None and at in numbers.positions:
-            guess = warmth_unit(numbers.of([at]))
+            warmth = numbers.of([at])
+            if are_counts_of_warmth(warmth):
+                said = f"counts of {np.nanmin(warmth):.0f} to {np.nanmax(warmth):.0f}, {TO_SAY}"
+                found.notes.append(f"{warm.cell} may be the temperature: {said}")
+                return
+            guess = warmth_unit(warmth)
         found.add([Guess(warm.cell, "temperature", guess.unit, guess.why)])
 
 

@@ -71,7 +71,8 @@ def triads(header: Sequence[str], file: str = "") -> list[Triad]:
                 score += bool(set(stem) & RAW) - 3 * _is_none(stem, DERIVED | TRUTHS)
                 found.append(Triad(group, three, at, score))
         if stem not in ((), hint) and not any(sure.values()) and not _is_none(stem, NO_SAMPLES):
-            by_unit += [Triad(g, three, at, 4) for g in TOLD_BY_UNIT if _fit(three, g)]
+            groups = (g for g in TOLD_BY_UNIT if g != "accel" or not set(stem) & LINEAR)
+            by_unit += [Triad(g, three, at, 4) for g in groups if _fit(three, g)]
     there = {triad.group for triad in found if triad.score > 0}
     found += [triad for triad in by_unit if triad.group not in there]
     return sorted(found, key=lambda triad: -triad.score)

@@ -106,5 +106,6 @@ ONE_VECTOR = [f"column {k}" for k in range(1, 5)]
 """A table without names of a time and a vector, which its file's name may tell: ``gyro.csv``; the
 time may be missing."""
 
-TOLD_BY_UNIT = ("gyro", "mag")
-"""Vectors whose units nothing else has, whatever its name: ``AsX(°/s)``, ``HX(uT)``."""
+TOLD_BY_UNIT = ("gyro", "mag", "accel")
+"""Vectors whose units few others have, whatever their name: ``AsX(°/s)``, ``HX(uT)``,
+``GForce X (g)``."""

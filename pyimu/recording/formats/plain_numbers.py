@@ -1,0 +1,134 @@
+"""Numbers that are written otherwise than programs read them: with their unit in the cell
+(``9.81 m/s2``), with the minus sign of printers, in hexadecimal digits, with Fortran's exponent, or
+with decimal commas between commas.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
+
+from pyimu.recording.formats.lines import is_comment
+from pyimu.recording.spelling import unit_of
+
+Rewrite = Callable[[str], str]
+
+SEPARATORS = (",", ";", "\t", "|")
+
+MINUS = "\u2212"
+_MINUS = re.compile(rf"{MINUS}(?=\.?\d)")
+_FORTRAN = re.compile(r"(?<![\w.])([-+]?(?:\d+\.?\d*|\.\d+))[dD]([-+]\d{1,3})(?![\w.])")
+_HEXADECIMAL = re.compile(r"(?<![\w.:-])0[xX]([0-9A-Fa-f]{1,8})(?![\w.:-])")
+_WITH_UNIT = re.compile(
+    r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\W\d_][^\s,;]*|[°º%/][^\s,;]*)\s*"
+)
+_WHOLE, _FRACTION = re.compile(r"\s*[-+]?\d+"), re.compile(r"\d+\s*")
+
+SHARE = 0.9
+"""Share of the last half of the first rows whose numbers are written so."""
+
+LETTERS = {"C": "degC", "F": "degF"}
+"""Units of a temperature that are none anywhere else."""
+
+
+class Plain(NamedTuple):
+    """What makes a line as programs read it, what is ``said`` of the lines, and the units that
+    stood in the cells, by the positions of the columns.
+    """
+
+    rewrite: Rewrite
+    said: str
+    units: Mapping[int, str] = {}
+
+
+def plain_numbers(lines: Sequence[str]) -> Plain | None:
+    """How the numbers in these first ``lines`` are read, None where they are as usual."""
+    rows = [line.rstrip("\r\n") for line in lines if line.strip() and not is_comment(line)]
+    tail = rows[len(rows) // 2 :]
+    for pattern, by, said in (
+        (_FORTRAN, r"\1E\2", "exponents with D"),
+        (_MINUS, "-", "the minus sign of printers"),
+        (_HEXADECIMAL, lambda match: str(int(match[1], 16)), "numbers in hexadecimal digits"),
+    ):
+        if _share(pattern.search(row) is not None for row in tail) >= SHARE / 2:
+            return Plain(_substitution(pattern, by), said)
+    return _with_units(tail) or _with_commas(rows)
+
+
+def _substitution(pattern: re.Pattern[str], by: str | Callable[[re.Match[str]], str]) -> Rewrite:
+    return lambda line: pattern.sub(by, line)
+
+
+def _share(truths) -> float:  # type: ignore[no-untyped-def]
+    seen = list(truths)
+    return sum(seen) / len(seen) if seen else 0.0
+
+
+def _with_units(tail: Sequence[str]) -> Plain | None:
+    """How cells with a unit behind the number are read: in a column it is the same one."""
+    for separator in SEPARATORS:
+        cells = [row.split(separator) for row in tail]
+        width = Counter(map(len, cells)).most_common(1)[0][0] if cells else 0
+        cells = [row for row in cells if len(row) == width]
+        if width < 3 or len(cells) < SHARE * len(tail):
+            continue
+        units = {k: unit for k in range(width) if (unit := _unit([row[k] for row in cells]))}
+        if units:
+            return Plain(_without_units(units, width, separator), "units in the cells", units)
+    return None
+
+
+def _unit(cells: Sequence[str]) -> str | None:
+    """The unit behind the numbers of a column, None where there is none, or no known one."""
+    found = [_WITH_UNIT.fullmatch(cell) for cell in cells]
+    said = Counter(match[2] for match in found if match is not None)
+    (text, count), *_ = said.most_common(1) or [("", 0)]
+    if count < SHARE * len(cells):
+        return None
+    return LETTERS.get(text) or unit_of(text)
+
+
+def _without_units(units: Mapping[int, str], width: int, separator: str) -> Rewrite:
+    def rewrite(line: str) -> str:
+        row = line.split(separator)
+        if len(row) != width:
+            return line
+        for k in units:
+            match = _WITH_UNIT.fullmatch(row[k])
+            row[k] = row[k] if match is None else match[1]
+        return separator.join(row)
+
+    return rewrite
+
+
+def _with_commas(rows: Sequence[str]) -> Plain | None:
+    """How rows are read in which the commas between the cells are those within them, too: below
+    names there are two cells for each, or for each but the first, which counts.
+    """
+    named = next((row.split(",") for row in rows if re.search(r"[^\W\d_]{2}|[a-z]", row)), [])
+    count = len(named)
+    tail = [row.split(",") for row in rows[len(rows) // 2 :]]
+    for whole in (0, 1):
+        width = 2 * count - whole
+        pairs = [row for row in tail if len(row) == width and _are_pairs(row, whole)]
+        if count > 2 and len(pairs) >= SHARE * len(tail) and len(tail) > 2:
+            return Plain(_joined(width, whole), "decimal commas between commas")
+    return None
+
+
+def _are_pairs(row: Sequence[str], whole: int) -> bool:
+    first = all(_WHOLE.fullmatch(cell) for cell in (*row[:whole], *row[whole::2]))
+    return first and all(_FRACTION.fullmatch(cell) for cell in row[whole + 1 :: 2])
+
+
+def _joined(width: int, whole: int) -> Rewrite:
+    def rewrite(line: str) -> str:
+        row = line.split(",")
+        if len(row) != width or not _are_pairs(row, whole):
+            return line
+        pairs = zip(row[whole::2], row[whole + 1 :: 2], strict=True)
+        return ",".join([*row[:whole], *(f"{a}.{b.strip()}" for a, b in pairs)])
+
+    return rewrite
