@@ -336,7 +336,10 @@ class Rows:
                     f"; {what} begins anew after {ticks * seconds:.9g} s, but here more is "
                     "missing: cut the log there"
                 )
-        return "; cut the log where its clock was set anew, or sort the rows by time"
+        return (
+            "; cut the log where its clock was set anew or another sensor's rows begin, or sort "
+            "the rows by time"
+        )
 
     def _report_repeats(
         self, time: np.ndarray, values: Mapping[str, np.ndarray], again: np.ndarray
