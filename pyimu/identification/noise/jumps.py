@@ -12,7 +12,12 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.noise.choose import Term
 from pyimu.identification.noise.explained import Explained
-from pyimu.identification.noise.levels import NUMBERS, levels_likelihood, markov_likelihood
+from pyimu.identification.noise.levels import (
+    MARKOV,
+    NUMBERS,
+    levels_likelihood,
+    markov_likelihood,
+)
 from pyimu.identification.noise.rows import Rows
 from pyimu.identification.noise.telegraph import FINE, RATES, telegraph_likelihood
 from pyimu.identification.search.choice import SET_WIDTH
@@ -44,7 +49,7 @@ def jumps_of(found: Explained) -> dict[int, Jump]:
     """The axes whose residual jumps, in place of the slow noise that was chosen for them: each at
     instants of its own or all together.
     """
-    jumping = _Jumping(found)
+    jumping = Jumping(found)
     slow = [i for i in found.state.axes if jumping.wanders(i)]
     if not slow:
         return {}
@@ -85,7 +90,7 @@ class _Log(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _Jumping:
+class Jumping:
     found: Explained
     seen: dict[int, list[_Log]] = field(default_factory=dict)
 
@@ -93,35 +98,44 @@ class _Jumping:
         """Log-likelihood [nat], penalised, by which jumps between two levels at the same instants
         are likelier than the slow noise of the axes.
         """
-        return self._of(telegraph_likelihood, axes, RATES) - self._slow_noise(axes)
+        return self.of(telegraph_likelihood, axes, RATES) - self.slow_noise(axes)
 
     def levels(self, axes: list[int]) -> float:
         """That of jumps to new levels, which have to be likelier than what is smooth and of the
         same spectrum, too: what was chosen may be another that comes near it.
         """
-        jumping = self._of(levels_likelihood, axes, NUMBERS)
-        ahead = jumping - self._slow_noise(axes)
+        jumping = self.of(levels_likelihood, axes, NUMBERS)
+        ahead = jumping - self.slow_noise(axes)
         if ahead > SET_WIDTH:
-            ahead = min(ahead, jumping - self._of(markov_likelihood, axes, len(axes)))
+            ahead = min(ahead, jumping - self.of(markov_likelihood, axes, MARKOV * len(axes)))
         return ahead
 
-    def _of(self, likelihood: Likelihood, axes: list[int], others: int) -> float:
+    def of(
+        self,
+        likelihood: Likelihood,
+        axes: list[int],
+        others: int,
+        along: Callable[[Rows], Rows | None] = lambda one: one,
+    ) -> float:
         """Largest log-likelihood of all logs, of a size for each axis and log and of so many
-        ``others`` numbers for each log.
+        ``others`` numbers for each log; ``along`` puts something in place of the time of each, and
+        there is none where it cannot.
         """
         walk = np.array([self._walk(i) for i in axes])
         total = 0.0
-        for logs in zip(*(self._logs(i) for i in axes), strict=True):
+        for logs in zip(*(self.logs(i) for i in axes), strict=True):
             white = np.column_stack([one.white for one in logs])
-            total += likelihood([one.seen for one in logs], white, walk)
-            total -= PENALTY * (len(axes) + others)
+            seen = [moved for one in logs if (moved := along(one.seen)) is not None]
+            if len(seen) < len(logs):
+                return -np.inf
+            total += likelihood(seen, white, walk) - PENALTY * (len(axes) + others)
         return total
 
-    def _slow_noise(self, axes: list[int]) -> float:
-        total = sum(one.smooth for i in axes for one in self._logs(i))
+    def slow_noise(self, axes: list[int]) -> float:
+        total = sum(one.smooth for i in axes for one in self.logs(i))
         return total - PENALTY * sum(self._numbers(i) for i in axes)
 
-    def _logs(self, i: int) -> list[_Log]:
+    def logs(self, i: int) -> list[_Log]:
         """The fitted logs of an axis, each looked at once."""
         if i not in self.seen:
             noise = self.found.sizes(self.found.state, i)

@@ -28,6 +28,9 @@ UNLIKELY = 1e-5
 NUMBERS = 1
 """Numbers that levels have beside the size of each axis's: how often they change."""
 
+MARKOV = 1
+"""Numbers that each axis of a Gauss-Markov process has beside its size: its correlation time."""
+
 
 @njit(cache=True)
 def _likelihood(r, steps, white, walk, spread, rate):

@@ -9,6 +9,7 @@ import numpy as np
 
 from pyimu.identification.found.entries import Added, Changed
 from pyimu.identification.noise.choose import Chosen, State, Term, refined
+from pyimu.identification.noise.driven import driven_of
 from pyimu.identification.noise.exact import AxisNoise
 from pyimu.identification.noise.explained import Explained
 from pyimu.identification.noise.jumps import Jump, jumps_of
@@ -68,11 +69,17 @@ def noise_of(
     if known is None:
         return Noise(unasked=DIFFERENTIATED)
     found = known.chosen_of(sensors)
-    jumps = jumps_of(found)
-    if jumps:
-        rest = State({i: a for i, a in known.state.axes.items() if i not in jumps})
+    shapes = _clearest(jumps_of(found), driven_of(found))
+    if shapes:
+        rest = State({i: a for i, a in known.state.axes.items() if i not in shapes})
         found = replace(known, state=rest).chosen_of(sensors)
-    return found.confirmed().told(jumps)
+    return found.confirmed().told(shapes)
+
+
+def _clearest(one: Mapping[int, Jump], other: Mapping[int, Jump]) -> dict[int, Jump]:
+    """By axis what of either is likelier."""
+    none = Jump(-np.inf, "")
+    return {i: max(one.get(i, none), other.get(i, none)) for i in sorted({*one, *other})}
 
 
 class _Named(Explained):
@@ -85,7 +92,7 @@ class _Named(Explained):
         noise = AxisNoise({by_name[n]: (s, {}) for n, s in squares.items() if s > 0.0})
         return sum(float(noise.likelihood(one)[one.fitted :].sum()) for one in self.logs[i])
 
-    def told(self, jumps: Mapping[int, Jump]) -> Noise:
+    def told(self, shapes: Mapping[int, Jump]) -> Noise:
         added = [self._added(c) for c in self.chosen if not self._is_declared(c.kind)]
         changed = [c for one in self.chosen if (c := self._changed(one)) is not None]
         white = self._changed_beside()
@@ -103,16 +110,16 @@ class _Named(Explained):
             tuple(added),
             tuple(changed),
             self._drift(),
-            tuple(self._jumping(i, jump) for i, jump in jumps.items()),
+            tuple(self._shaped(i, one) for i, one in shapes.items()),
             self.refused,
             values,
             std,
             gained if self.chosen else 0.0,
         )
 
-    def _jumping(self, i: int, jump: Jump) -> Unexplained:
-        chance = float(np.exp(-jump.gain))
-        return Unexplained(self.sensor.kind, "xyz"[i], (), chance, jump.shape)
+    def _shaped(self, i: int, one: Jump) -> Unexplained:
+        chance = float(np.exp(-one.gain))
+        return Unexplained(self.sensor.kind, "xyz"[i], (), chance, one.shape)
 
     def _of_all(self, name: str) -> np.ndarray:
         out = np.zeros(3)

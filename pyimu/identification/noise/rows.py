@@ -38,7 +38,7 @@ class Rows:
     variance of what rounding did to a row of the reference and not to the one before.
 
     The first ``fitted`` rows were fitted, those after them held out. ``averaged`` says that each is
-    the mean over ``h`` s.
+    the mean over ``h`` s. ``rate`` (n, 3) rad/s is how fast the sensor turns, where that is asked.
     """
 
     time: np.ndarray
@@ -49,6 +49,7 @@ class Rows:
     fitted: int
     averaged: bool = False
     rounded: np.ndarray | None = None
+    rate: np.ndarray | None = None
 
     @property
     def steps(self) -> np.ndarray:
@@ -58,9 +59,9 @@ class Rows:
     def seen(self) -> Rows:
         """The rows that were fitted."""
         n = self.fitted
-        rounded = None if self.rounded is None else self.rounded[:n]
         each = self.time[:n], self.r[:n], self.x[:n], self.slope[:n]
-        return Rows(*each, self.h, n, rounded=rounded)
+        rounded, rate = (None if v is None else v[:n] for v in (self.rounded, self.rate))
+        return Rows(*each, self.h, n, rounded=rounded, rate=rate)
 
     def means(self, seconds: float) -> Rows:
         """Means over so many seconds of rows, as rows of their own."""
@@ -68,7 +69,10 @@ class Rows:
         whole = len(self.r) // m * m
         each = (self.time, self.r, self.x, self.slope)
         time, r, x, slope = (v[:whole].reshape(-1, m).mean(axis=1) for v in each)
-        return Rows(time, r, x, slope, self.h * m, self.fitted // m, True)
+        rate = self.rate
+        if rate is not None:
+            rate = rate[:whole].reshape(-1, m, 3).mean(axis=1)
+        return Rows(time, r, x, slope, self.h * m, self.fitted // m, True, rate=rate)
 
     def stretches(self) -> list[np.ndarray]:
         """The residual of each stretch that is long enough, single missing rows put in."""
@@ -108,15 +112,17 @@ def rows_of(fit: Fit, held: tuple[Trial, ...]) -> dict[int, list[Rows]]:
 
 
 def _columns(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:
-    """Time, residual, own signal, its rate and what rounding did to it (m, 13) of the rows that
-    count.
+    """Time, residual, own signal, its rate, what rounding did to it, and the angular rate (m, 16)
+    of the rows that count.
     """
     u, own = reference_input(trial, state), OWN[trial.kind]
     rate = COLUMNS[KINDS[trial.kind].own_rate]
     moves = _moves(trial, u[:, own])
     x, slope = (np.where(moves, u[:, c], 0.0) for c in (own, rate))
     values = (trial.time[:, None], residual(sensor, trial, state), x, slope)
-    return in_band(trial, np.column_stack((*values, _rounded(trial, u[:, own]))))
+    return in_band(
+        trial, np.column_stack((*values, _rounded(trial, u[:, own]), u[:, COLUMNS["rate"]]))
+    )
 
 
 def _rounded(trial: Trial, x: np.ndarray) -> np.ndarray:
@@ -141,4 +147,5 @@ def _moves(trial: Trial, x: np.ndarray) -> np.ndarray:
 def _axis(made: np.ndarray, i: int, h: float, fitted: int) -> Rows:
     columns = (0, 1 + i, 4 + i, 7 + i, 10 + i)
     time, r, x, slope, rounded = (np.ascontiguousarray(made[:, c]) for c in columns)
-    return Rows(time, r, x, slope, h, fitted, rounded=rounded if rounded.any() else None)
+    digits = rounded if rounded.any() else None
+    return Rows(time, r, x, slope, h, fitted, rounded=digits, rate=made[:, 13:])
