@@ -101,7 +101,7 @@ def less_than_memory(inv: Investigation) -> Investigation:
     is seen beside them, it need only explain as much.
     """
     steps = [s for s in inv.steps if not s.declared]
-    if not steps or not all(is_slow(CATALOGUE[s.effect]) for s in steps):
+    if not any(is_slow(CATALOGUE[s.effect]) for s in steps):
         return inv
     memory = remembered(inv.before)
     if memory is None:

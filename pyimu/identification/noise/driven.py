@@ -45,10 +45,15 @@ AT_REST = 0.1
 
 
 def driven_of(found: Explained) -> dict[int, Jump]:
-    """The axes whose slow noise the motion drives, each with what moves it most clearly."""
+    """The axes whose slow noise the motion drives, each with what moves it most clearly: where one
+    axis is, another of the sensor has the same cause, unless noise is clearly likelier there.
+    """
     looked = Jumping(found)
     best = {i: _most(looked, i) for i in found.state.axes if looked.wanders(i)}
-    return {i: one for i, one in best.items() if one.gain > SET_WIDTH + np.log(len(SPEEDS))}
+    least = SET_WIDTH + np.log(len(SPEEDS))
+    if all(one.gain <= least for one in best.values()):
+        return {}
+    return {i: one for i, one in best.items() if one.gain > -SET_WIDTH}
 
 
 def _most(looked: Jumping, i: int) -> Jump:

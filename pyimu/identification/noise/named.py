@@ -77,9 +77,9 @@ def noise_of(
 
 
 def _clearest(one: Mapping[int, Jump], other: Mapping[int, Jump]) -> dict[int, Jump]:
-    """By axis what of either is likelier."""
-    none = Jump(-np.inf, "")
-    return {i: max(one.get(i, none), other.get(i, none)) for i in sorted({*one, *other})}
+    """By axis what all axes together speak for, and what is left to the other of the two."""
+    less, more = sorted((one, other), key=lambda found: sum(j.gain for j in found.values()))
+    return {**less, **more}
 
 
 class _Named(Explained):
@@ -118,7 +118,7 @@ class _Named(Explained):
         )
 
     def _shaped(self, i: int, one: Jump) -> Unexplained:
-        chance = float(np.exp(-one.gain))
+        chance = float(np.exp(-max(one.gain, 0.0)))
         return Unexplained(self.sensor.kind, "xyz"[i], (), chance, one.shape)
 
     def _of_all(self, name: str) -> np.ndarray:
