@@ -2,6 +2,7 @@
 read in the wrong unit, of two sensors at once, or at the wrong rate, without a word.
 """
 
+import log_lines
 import numpy as np
 import pytest
 from turned_logs import G, N, agrees, by_its_map, rows, turned, written
@@ -106,26 +107,53 @@ def test_flysight_s_lines_of_each_sensor(log, tmp_path):
     assert found.temperature[0] == pytest.approx(28.5)
 
 
+def test_devices_without_names_of_columns(log, tmp_path):
+    """Two sensors on one bus, by their addresses: the rows of the second by a map."""
+    one, two = (np.hstack([log[2] / G, np.degrees(log[1])])[:, order] for order in ORDERS)
+    both = zip(rows(["IMU"] * N, ["0x69"] * N, two), rows(["IMU"] * N, ["0x68"] * N, one))
+    path = written(tmp_path / "log.txt", [line for pair in both for line in pair])
+    columns = "".join(f'"column {k + 3}" = "{name}"\n' for k, name in enumerate(TARGETS))
+    given = 'sample_rate = {value = 100, unit = "Hz"}\n[columns]\n' + columns
+    for word, order in (("0x69", ORDERS[1]), ("0x68", ORDERS[0])):
+        (tmp_path / "map.toml").write_text(f'{given}[topics]\nimu = "{word}"\n')
+        found = read_recording(path, tmp_path / "map.toml")
+        np.testing.assert_allclose(found.accel, log[2][:, order[:3]], atol=1e-6)
+
+
+ORDERS = ([0, 1, 2, 3, 4, 5], [1, 2, 0, 4, 5, 3])
+TARGETS = [f"{n}_{a} [{u}]" for n, u in (("accel", "g"), ("gyro", "deg/s")) for a in "xyz"]
+
+
+# Messages
+
+
+@pytest.mark.parametrize("two", [False, True])
+def test_messages_as_ros_prints_them(two, log, tmp_path):
+    """A number on a line: ``rostopic echo`` and ``ros2 topic echo`` of an Imu message."""
+    seconds, parts = ("sec", "nanosec") if two else ("secs", "nsecs")
+    none = ["- 0.0"] * 9
+    lines = []
+    for t, rate, force in zip(*log, strict=True):
+        ns = round(1e9 * t) + 1_600_000_000 * 10**9
+        lines += ["header:", "  seq: 3", "  stamp:", f"    {seconds}: {ns // 10**9}"]
+        lines += [f"    {parts}: {ns % 10**9}", '  frame_id: "imu"', "orientation:", "  x: 0.5"]
+        for name, vector in (("angular_velocity", rate), ("linear_acceleration", force)):
+            lines += [f"{name}: ", *(f"  {a}: {v!r}" for a, v in zip("xyz", vector.tolist()))]
+            lines += [f"{name}_covariance:", *none] if two else [f"{name}_covariance: [0.0, 0.0]"]
+        lines.append("---")
+    agrees(read_recording(written(tmp_path / "log.txt", lines)), log)
+
+
 # Times
 
 
 def test_the_sensor_s_own_clock_goes_before_the_computer_s(log, tmp_path):
-    """WitMotion's table: a wireless sensor's samples arrive five at a time; its magnetometer's unit
-    is misspelled.
-    """
-    chip = [f"2024-1-5 10:20:{t:06.3f}".replace(".", ":") for t in log[0]]
-    came = [f"10:20:{t - t % 0.05:06.3f}" for t in log[0] + 1e-9]
-    names = [(log[2] / G, "Acceleration {}(g)"), (np.degrees(log[1]), "Angular velocity {}(°/s)")]
-    names.append((np.full((N, 3), 20.0), "Magnetic field {}(ʯt)"))
-    head = ",".join(form.format(a) for _, form in names for a in "XYZ")
-    lines = [f"Time,Device name,Chip Time(),{head},Temperature(℃)"]
-    lines += rows(came, ["unit"] * N, chip, *(v for v, _ in names), np.full(N, 28.5))
-    found = read_recording(written(tmp_path / "log.csv", lines))
+    """WitMotion's table: a wireless sensor's samples arrive five at a time."""
+    ns = np.rint(1e9 * log[0]).astype(int)
+    found = read_recording(log_lines.witmotion(tmp_path, (ns, *log[1:])))
     agrees(found, log)
-    assert np.ptp(np.diff(found.time)) < 1e-6 and not any(
-        f.kind == "coarse_stamps" for f in found.findings
-    )
-    np.testing.assert_allclose(found.mag, 2e-5)
+    assert not any(f.kind == "coarse_stamps" for f in found.findings)
+    np.testing.assert_allclose(found.mag, np.tile([1e-5, -2e-5, 3e-5], (N, 1)))
 
 
 @pytest.mark.parametrize("order", [slice(None, None, -1), np.r_[N // 2 : N, 0 : N // 2]])

@@ -139,6 +139,26 @@ def open_log(folder, log):
     return lines_of(folder / "dataLog00001.TXT", [head, *rows])
 
 
+def witmotion(folder, log):
+    """WitMotion's table of a wireless sensor, whose samples arrive five at a time: the sensor's own
+    clock beside the computer's, and a unit that is misspelled.
+    """
+    time, gyro, accel = log
+    start = np.datetime64("2024-03-05T10:30:00.000000000")
+    times = (start + (np.asarray(time) - time[0]).astype("timedelta64[ns]")).astype(str)
+    came = np.repeat(times[::5], 5)[: len(times)]
+    six = np.hstack([accel / 9.80665, np.degrees(gyro)]).tolist()
+    rows = [
+        f"{late[11:23]},WT901BLE(eb:33:2e),2024-3-5 {t[11:19]}:{t[20:23]},{row},"
+        "10.0,-20.0,30.0,28.75"
+        for late, t, row in zip(came, times, (",".join(map(repr, r)) for r in six), strict=True)
+    ]
+    kinds = ("Acceleration {}(g)", "Angular velocity {}(°/s)", "Magnetic field {}(ʯt)")
+    names = [kind.format(a) for kind in kinds for a in "XYZ"]
+    head = ",".join(["Time", "Device name", "Chip Time()", *names, "Temperature(℃)"])
+    return lines_of(folder / "WT901.csv", [head, *rows])
+
+
 def bag_text(folder, log):
     """``imu.txt`` as rpg's scripts write it of bags."""
     time, gyro, accel = log
@@ -173,7 +193,7 @@ def nuscenes(folder, log):
     return folder / "scene-0001_ms_imu.json"
 
 
-ALONE = (gnss_logger, gyroflow, echoed, posed, open_log, bag_text, ronin, nuscenes)
+ALONE = (gnss_logger, gyroflow, echoed, posed, open_log, bag_text, ronin, nuscenes, witmotion)
 """Layouts that are read as they are."""
 
 MAPPED = (serial, vectornav)

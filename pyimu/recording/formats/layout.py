@@ -10,6 +10,7 @@ from pathlib import Path
 from pyimu.errors import UserError
 from pyimu.recording.formats.bodies import total_capture
 from pyimu.recording.formats.by_word import rows_by_word
+from pyimu.recording.formats.echoed import echoed
 from pyimu.recording.formats.flysight import flysight
 from pyimu.recording.formats.headed import headed
 from pyimu.recording.formats.labelled import labelled
@@ -43,9 +44,12 @@ NO_TOPICS = (
 """What is said of a file that holds one table."""
 
 MESSAGES = (
-    "of ROS's messages take the bag, or a table of them: rostopic echo -p, ros2 topic echo --csv"
+    "of ROS's messages take the bag, or a table of them: rostopic echo -p, ros2 topic echo --csv; "
+    "whole messages as they are printed are read as .txt"
 )
 """What is said of messages that were printed, a number on a line."""
+
+_ROS = {"angular_velocity:", "linear_acceleration:"}
 
 FIT = (
     "have a table with a row for each: timestamp_ms + sample_time_offset [ms], calibrated_gyro_x, "
@@ -66,9 +70,10 @@ def layout_of(path: Path, topic: str = "") -> Layout:
         raise UserError(f"{path}: is empty")
     if any("\r" in line.rstrip("\r\n") for line in head[:1]):
         raise UserError(f"{path}: {CARRIAGE}")
-    if {"angular_velocity:", "linear_acceleration:"} <= {line.strip() for line in head}:
+    marked = None if topic else echoed(head)
+    if marked is None and _ROS <= {line.strip() for line in head}:
         raise UserError(f"{path}: is no table; {MESSAGES}")
-    marked = _marked(head, path, topic)
+    marked = marked or _marked(head, path, topic)
     if marked is not None:
         told = (k for k, line in enumerate(head, 1) if _is_told(marked, line.strip()))
         return Layout(

@@ -33,6 +33,9 @@ MOST_DEVICES = 16
 EVEN = 0.5
 """Share of its part of the rows that each device has at least."""
 
+LEAST = 6
+"""Numbers in a row of a table without names that may be of a device: two vectors."""
+
 TOGETHER = 0.02
 """Share of the rows up to which both sensors may have cells in one, as where their times meet."""
 
@@ -72,14 +75,19 @@ def mixed_rows(lines: Sequence[str], topic: str = "") -> Mixed | None:
         width = Counter(map(len, cells)).most_common(1)[0][0] if cells else 0
         names = next((k for k, row in enumerate(cells) if len(row) == width), 0)
         below = [row for row in cells[names + 1 :] if len(row) == width]
-        if width < 4 or not below or any(map(_is_filled, cells[names])):
+        if width < 4 or not below:
+            continue
+        if any(map(_is_filled, cells[names])):
+            unnamed = _of_devices(range(width), width, [cells[names], *below], separator, topic)
+            if unnamed is not None and sum(map(_is_filled, cells[names])) >= LEAST:
+                return unnamed
             continue
         found = triads(cells[names])
         vectors = {kind: triad for kind in KINDS if (triad := surest(found, kind)[0]) is not None}
         if {"gyro", "accel"} <= set(vectors):
-            return _apart(vectors, below, separator, topic) or _of_devices(
-                cells[names], below, separator, topic
-            )
+            at = [k for k, cell in enumerate(cells[names]) if _names_devices(cell)]
+            devices = _of_devices(at, width, below, separator, topic)
+            return _apart(vectors, below, separator, topic) or devices
     return None
 
 
@@ -92,12 +100,16 @@ def _is_filled(cell: str) -> bool:
 
 
 def _of_devices(
-    names: Sequence[str], rows: Sequence[Sequence[str]], separator: str, topic: str
+    columns: Iterable[int],
+    width: int,
+    rows: Sequence[Sequence[str]],
+    separator: str,
+    topic: str,
 ) -> Mixed | None:
-    """The rows of the first device, or that of the name ``topic``."""
-    for at, cell in enumerate(names):
+    """The rows of the first device, or that of the name ``topic``, by one of the ``columns``."""
+    for at in columns:
         words = [row[at] for row in rows]
-        if not _names_devices(cell) or any(map(_is_filled, words)) or not _come_in_turn(words):
+        if any(_is_filled(w) or w in MISSING for w in words) or not _come_in_turn(words):
             continue
         kinds = list(dict.fromkeys(words))
         if topic and topic not in kinds:
@@ -106,7 +118,7 @@ def _of_devices(
         others = tuple(word for word in kinds if word != own)
         choice = " or ".join(f'"{word}"' for word in others)
         said = f"the rows {own} alone, [topics] imu = {choice} in a column map reads others"
-        return Mixed(own, others, _keeps_device(at, others, len(names), separator), said)
+        return Mixed(own, others, _keeps_device(at, others, width, separator), said)
     return None
 
 
