@@ -13,6 +13,10 @@ from scipy.signal import upfirdn
 OVERSAMPLING = 2.5
 """Rows for each period of the band's frequency."""
 
+BEYOND = 2.0 / 0.7203
+"""Times the band's edge above which nothing of what was differentiated is kept: where the window of
+the band passes nothing any more of what the sensor shows there."""
+
 
 @dataclass(frozen=True)
 class Band:

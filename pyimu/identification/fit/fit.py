@@ -36,7 +36,7 @@ from pyimu.identification.fit.keys import (
 from pyimu.identification.fit.noise_fit import declared_variances, fit_noise, less_levels
 from pyimu.identification.fit.normal import Noise, Normal, normal_equations, solve
 from pyimu.identification.fit.trial import Trial, marked
-from pyimu.identification.fit.whiten import WALKS, RandomWalk
+from pyimu.identification.fit.whiten import WALKS, Autoregressive, RandomWalk
 from pyimu.model.arguments import Parameter
 from pyimu.model.kinds import KINDS, OWN
 from pyimu.model.sensor import Sensor
@@ -176,7 +176,9 @@ class Fit:
         return replace(self, seen=seen, noise=self._at_least_declared(seen))
 
     def _at_least_declared(self, seen: Noise) -> Noise:
-        white, walk = declared_variances(self.sensor, self.trials[0].h)
+        first = self.trials[0]
+        white, walk = declared_variances(self.sensor, first.h)
+        white = white / first.band.stride
         return {i: _at_least(n, float(white[i]), float(walk[i])) for i, n in seen.items()}
 
     def as_declared(self) -> Fit:
@@ -210,10 +212,14 @@ class Fit:
 
 
 def _at_least(noise, white: float, walk: float):
-    """A noise with at least the declared variances."""
+    """A noise with at least the declared variances, of means over a row and of the walk in a
+    second.
+    """
     if isinstance(noise, RandomWalk):
         return RandomWalk(max(noise.r, white), max(noise.k2, walk))
-    return replace(noise, k2=max(noise.k2, walk)) if isinstance(noise, WALKS) else noise
+    if not isinstance(noise, Autoregressive):
+        return noise
+    return replace(noise.no_quieter_than(white), k2=max(noise.k2, walk))
 
 
 def _without_columns(one: Linear) -> Linear:

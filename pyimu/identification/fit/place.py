@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.reference.filters import below
+from pyimu.recording.reference.filters import below_hz
 from pyimu.recording.reference.force import arm_forces
 
 FAR = 10.0
@@ -126,11 +126,7 @@ class Place:
 
     def below(self, values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
         """What values (n, k) have below the cutoff, in each of the ``segments``."""
-        out = np.array(values)
-        if self.cutoff < 0.5 / (h := float(np.median(np.diff(self.time)))):
-            for a, b in segments:
-                out[a:b] = below(values[a:b], 2.0 * h * self.cutoff)
-        return out
+        return below_hz(values, segments, float(np.median(np.diff(self.time))), self.cutoff)
 
     def shown(self, values: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
         """What of values (n, k) in the world's axes positions or velocities show."""

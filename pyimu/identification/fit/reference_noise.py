@@ -35,6 +35,7 @@ from pyimu.identification.fit.trial import MEASURED, Doubt, Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
+from pyimu.recording.reference.filters import below_hz
 
 LEAST = 1e-3
 """Share of the residual's variance below which the noise of a reference is left alone: what it does
@@ -147,7 +148,7 @@ def _drawn(
     for _ in range(trial.derivatives):
         draw = np.gradient(draw, axis=0)
     whole = draw.var(axis=0)
-    draw = draw if trial.place is None else trial.place.as_the_force(draw, trial.segments)
+    draw = _as_shown(trial, draw)
     seen = in_band(trial, draw).var(axis=0) if trial.count else np.ones(3)
     wanted = np.isin(np.arange(3), trial.axes) & (seen > 0.0)
     scale = np.sqrt(np.where(wanted, variance / np.where(seen > 0.0, seen, 1.0), 0.0))
@@ -156,6 +157,15 @@ def _drawn(
     )
     scale = np.minimum(scale, most)
     return replace(trial, noise=draw * scale), whole * scale**2
+
+
+def _as_shown(trial: Trial, draw: np.ndarray) -> np.ndarray:
+    """What is left of a draw (n, 3) that was differentiated once it has gone through all that the
+    reference has.
+    """
+    if trial.place is not None:
+        return trial.place.as_the_force(draw, trial.segments)
+    return below_hz(draw, trial.segments, trial.h, trial.cutoff)
 
 
 def _spectra(fit: Fit, linears: Sequence[Linear]) -> dict[str, list[Spectrum]]:

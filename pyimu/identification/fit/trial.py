@@ -97,7 +97,8 @@ class Trial:
     spikes, where there are any; ``limited`` (n, 3) marks those that lie where the output stops and
     that a band would spread. ``undamped`` (n, 3) is what the reference shows of the sensor's own
     signal where ``u`` has it as a sensor does that damps a little. ``reference_apart`` says that
-    another clock gave the reference its times.
+    another clock gave the reference its times; a rate that was differentiated has nothing above
+    ``cutoff`` Hz in ``u``.
     """
 
     name: str
@@ -130,6 +131,7 @@ class Trial:
     limited: np.ndarray | None = None
     undamped: np.ndarray | None = None
     reference_apart: bool = False
+    cutoff: float = np.inf
 
     @cached_property
     def band(self) -> Band:

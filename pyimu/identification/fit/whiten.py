@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numba import njit
+from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 
 from pyimu.identification.fit import moving_average
@@ -360,6 +361,28 @@ class Autoregressive:
     def walk(self) -> RandomWalk:
         """The walk as the prediction errors, of unit variance, show it."""
         return RandomWalk(1.0, self.k2 / self.slow.r, self.before)
+
+    def no_quieter_than(self, level: float) -> Autoregressive:
+        """The same with no less than the variance ``level`` where it is ``slow``: with a smaller
+        ``theta``, else with white noise beside it, as an autoregression of the same memory.
+
+        Of few rows the slow end is known by tenths, and what it lacks there makes of a bias that
+        wanders a step.
+        """
+        missing, whole = level - self.slow.r, 1.0 - sum(self.coefficients)
+        if missing <= 0.0:
+            return self
+        if (theta := 1.0 - abs(whole) * np.sqrt(level / self.r)) > 0.0 and self.theta:
+            return replace(self, theta=float(theta))
+        order, turns = len(self.coefficients), np.exp(-2j * np.pi * np.fft.rfftfreq(2 * SETTLED))
+        taps = np.concatenate([[1.0], -np.array(self.coefficients)])
+        density = self.r * np.abs((1.0 - self.theta * turns) / np.polyval(taps[::-1], turns)) ** 2
+        products = np.fft.irfft(density + missing)[: order + 1]
+        if not order:
+            return replace(self, r=float(products[0]), theta=0.0)
+        coefficients = solve_toeplitz(products[:-1], products[1:])
+        r = float(products[0] - coefficients @ products[1:])
+        return replace(self, coefficients=tuple(coefficients), r=r, theta=0.0)
 
     def in_means(self, count: float) -> Autoregressive:
         """The noise of means over so many rows, one after another: a moving average that has their

@@ -23,6 +23,7 @@ from pyimu.identification.reference.place import (
     is_differentiated,
     quietened,
 )
+from pyimu.identification.reference.quiet_rate import with_quiet_rate
 from pyimu.identification.reference.slipped_mount import with_one_mounting
 from pyimu.identification.reference.struck import as_struck
 from pyimu.identification.reference.turned import with_mounting
@@ -84,7 +85,8 @@ def prepared(fitted: list[Trial], apart: list[Trial], others: bool) -> Together:
     if bands:
         band = BAND_SHARE * float(np.median(bands))
         fitted, apart = (
-            [as_struck(replace(t, band_hz=band)) for t in ts] for ts in (fitted, apart)
+            [with_quiet_rate(as_struck(replace(t, band_hz=band))) for t in ts]
+            for ts in (fitted, apart)
         )
     differentiated = filter(is_differentiated, (*fitted, *apart))
     if not all(is_borne_out(t) and not misfit([t]) for t in differentiated):

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyimu.errors import Finding
+from pyimu.identification.fit.band import BEYOND
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.inputs import copied, own_rate
 from pyimu.identification.fit.place import GRAVITY, HEADING
@@ -44,10 +45,6 @@ STARTS = (0.0, 0.5 * np.pi, np.pi, -0.5 * np.pi)
 BETTER = 0.5
 """Share of what the first start leaves that another must leave: of a body that stays level the
 mounting takes any heading up."""
-
-BEYOND = 2.0 / 0.7203
-"""Times the band's edge above which nothing of a differentiated force is kept: where the window of
-the band passes nothing any more of what the sensor shows there."""
 
 SAID = np.radians(1.0)
 """rad; a heading below is no more than how well cameras are levelled and aligned."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from scipy.signal import butter, lfilter, sosfiltfilt
@@ -57,6 +57,17 @@ def below(values: np.ndarray, share: float) -> np.ndarray:
         return np.array(values)
     low = butter(ORDER, share, output="sos")
     return sosfiltfilt(low, values, axis=0, padtype="even", padlen=room)
+
+
+def below_hz(
+    values: np.ndarray, segments: Sequence[tuple[int, int]], h: float, cutoff: float
+) -> np.ndarray:
+    """What values (n, k), ``h`` s apart, have below a ``cutoff`` in Hz, in each of ``segments``."""
+    out = np.array(values)
+    if cutoff < 0.5 / h:
+        for a, b in segments:
+            out[a:b] = below(values[a:b], 2.0 * h * cutoff)
+    return out
 
 
 def turned_by(rate: np.ndarray, h: float) -> np.ndarray:
