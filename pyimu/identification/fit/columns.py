@@ -107,7 +107,7 @@ def residual(sensor: Sensor, trial: Trial, state: LogState) -> np.ndarray:
     u = reference_input(trial, state)
     sensor, weights = without_limit(sensor, trial)
     y = predict(in_log(sensor, state), u, trial.segments, trial.h, before(trial, state))
-    return _counting(trial.y - y, weights)
+    return _counting(trial.left(sensor, y), weights)
 
 
 def _counting(values: np.ndarray, share: np.ndarray | None) -> np.ndarray:
@@ -210,7 +210,7 @@ def linearise(
     return Linear(
         band_time(trial),
         band_segments(trial),
-        in_band(trial, _counting(trial.y - y, weights)),
+        in_band(trial, _counting(trial.left(sensor, y), weights)),
         keys,
         columns,
     )

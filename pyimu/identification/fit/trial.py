@@ -5,8 +5,8 @@ What was measured, what the reference says went in, which rows count.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from functools import cached_property
 
@@ -98,7 +98,8 @@ class Trial:
     that a band would spread. ``undamped`` (n, 3) is what the reference shows of the sensor's own
     signal where ``u`` has it as a sensor does that damps a little. ``reference_apart`` says that
     another clock gave the reference its times; a rate that was differentiated has nothing above
-    ``cutoff`` Hz in ``u``.
+    ``cutoff`` Hz in ``u``. ``bent`` (n, 3) is by how much more an effect bends the sensor's own
+    signal than what the reference shows of it.
     """
 
     name: str
@@ -132,6 +133,7 @@ class Trial:
     undamped: np.ndarray | None = None
     reference_apart: bool = False
     cutoff: float = np.inf
+    bent: Mapping[str, np.ndarray] = field(default_factory=dict)
 
     @cached_property
     def band(self) -> Band:
@@ -194,6 +196,16 @@ class Trial:
             return self.reduction.samples
         return sum(b - a for a, b in self.row_segments)
 
+    def left(self, sensor: Sensor, predicted: np.ndarray) -> np.ndarray:
+        """What is measured beyond what a model ``predicted`` (n, 3), each (n, 3), with what its
+        effects bend as the sensor's own signal has it.
+        """
+        out = self.y - predicted
+        for name, values in self.bent.items():
+            if name in sensor.values and sensor.acts(name):
+                out = out - values
+        return out
+
     def rows(self, sensor: Sensor, bias: np.ndarray) -> Rows:
         """What the stretches that are this trial's rows say under a model and a ``bias`` (3,)."""
         return self.reduction.rows(sensor, self.y - bias, self.u, self.segments, self.h)
@@ -219,6 +231,7 @@ class Trial:
             healed=None if self.healed is None else self.healed[start:stop],
             limited=None if self.limited is None else self.limited[start:stop],
             undamped=None if self.undamped is None else self.undamped[start:stop],
+            bent={name: values[start:stop] for name, values in self.bent.items()},
             earlier=earlier if len(earlier) else None,
             noise=None if self.noise is None else self.noise[start:stop],
             place=None if self.place is None else self.place.part(start, stop),

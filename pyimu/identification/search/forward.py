@@ -52,6 +52,7 @@ from pyimu.identification.search.damped import (
 from pyimu.identification.search.inexact import within_form
 from pyimu.identification.search.judge import OF_REFERENCE, judged
 from pyimu.identification.search.left_out import LeftOut, with_left_out
+from pyimu.identification.search.own_kinks import with_own_kinks
 from pyimu.identification.search.own_lag import (
     apart,
     beside_clocks,
@@ -430,6 +431,7 @@ class _Search:
             self.held = [with_wander(t, wander_of(after.trials[0])) for t in self.held]
         known, self.held = drawn_again(after, self.held, self.believed)
         self.after = after if known is after else fit(known)
+        self.after, self.held = with_own_kinks(self.after, self.held)
         self.tried = Tried(self.after, self.sensor.values)
         self.left_out = self._left_out()
         self.last = self.seen = self.tried.looked()[0]

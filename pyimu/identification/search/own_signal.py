@@ -13,15 +13,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyimu.identification.fit.columns import band_segments, band_time, in_band, in_log, residual
+from pyimu.identification.fit.damping import slopes
 from pyimu.identification.fit.doubted import CERTAIN
 from pyimu.identification.fit.errors_in_variables import STEP
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.high_differences import sensor_white
-from pyimu.identification.fit.inputs import Inputs, own_rate, reference_input
+from pyimu.identification.fit.inputs import Inputs, LogState, own_rate, reference_input
 from pyimu.identification.fit.noise_fit import declared_variances
 from pyimu.identification.fit.response import predict
 from pyimu.identification.fit.trial import MEASURED, Trial
 from pyimu.model.kinds import OWN
+from pyimu.model.sensor import Sensor
 
 AT_ZERO = ("bias_asymmetry", "dead_zone", "hard_dead_zone")
 """Effects that make as much of an input near zero as of a larger one, or all of it: of an axis that
@@ -71,7 +73,9 @@ def _sums(old: Fit, new: Fit, trial: Trial, rng: np.random.Generator) -> _Sums:
     drawn = np.sqrt(own) * rng.standard_normal(trial.y.shape)
 
     def between(change: np.ndarray) -> np.ndarray:
-        after, before = (_predicted(f, trial, change) for f in (new, old))
+        after, before = (
+            predicted(f.sensor, trial, f.states[trial.name], change) for f in (new, old)
+        )
         return in_band(trial, after - before)
 
     by_reference, by_sensor = between(np.zeros_like(left)), between(left)
@@ -87,20 +91,15 @@ def _sums(old: Fit, new: Fit, trial: Trial, rng: np.random.Generator) -> _Sums:
     return total
 
 
-def _predicted(fit: Fit, trial: Trial, change: np.ndarray) -> np.ndarray:
+def predicted(sensor: Sensor, trial: Trial, state: LogState, change: np.ndarray) -> np.ndarray:
     """What a model says (n, 3) where the sensor's input is the reference's and a ``change`` (n, 3)
     of it.
     """
-    state = fit.states[trial.name]
     u = reference_input(trial, state)
     at, rate = OWN[trial.kind], own_rate(trial.kind)
-    slope = np.zeros_like(change)
-    for a, b in trial.segments:
-        if b - a > 1:
-            slope[a:b] = np.gradient(change[a:b], trial.time[a:b], axis=0)
     _moved(u, trial, at, change)
-    _moved(u, trial, rate, slope)
-    return predict(in_log(fit.sensor, state), u, trial.segments, trial.h)
+    _moved(u, trial, rate, slopes(trial, change))
+    return predict(in_log(sensor, state), u, trial.segments, trial.h)
 
 
 def _moved(u: Inputs, trial: Trial, at: slice, change: np.ndarray) -> None:
