@@ -289,3 +289,24 @@ def test_an_autoregression_of_a_few_rows_settles():
     poles = np.roots([1.0, *(-c for c in found.coefficients)])
     assert np.abs(poles).max() < 1.0 and np.isfinite(found.in_means(50).r)
     assert abs(np.angle(poles[0])) == pytest.approx(1.8, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "noise",
+    [
+        Autoregressive((1.5, -0.7), 0.2),
+        Autoregressive((0.5, -0.3, 0.1), 0.2, theta=0.9),
+        Autoregressive((), 0.2),
+    ],
+)
+def test_no_noise_is_quieter_at_its_slow_end_than_a_part_declares(noise):
+    """What is more is white: of an autoregression by its covariance, to what its memory can have of
+    that; of the derivative of a noise its slow end alone is another.
+    """
+    assert noise.no_quieter_than(0.5 * noise.slow.r) is noise
+    level = 1.2 * noise.slow.r
+    more = noise.no_quieter_than(level)
+    assert more.slow.r == pytest.approx(level, rel=1e-4)
+    assert len(more.coefficients) == len(noise.coefficients)
+    if noise.theta:
+        assert 0.0 < more.theta < noise.theta and more.coefficients == noise.coefficients

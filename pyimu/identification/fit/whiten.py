@@ -34,6 +34,9 @@ SETTLED = 1024
 SETTLES = 1.0 - 1e-6
 """Largest size of a pole: beyond it a filter settles in no log."""
 
+HALVED = 20
+"""Times that an interval is halved in which a variance is looked for: to a millionth of it."""
+
 CHUNK = 65536
 """Rows that are put side by side with their predecessors at once."""
 
@@ -364,25 +367,32 @@ class Autoregressive:
 
     def no_quieter_than(self, level: float) -> Autoregressive:
         """The same with no less than the variance ``level`` where it is ``slow``: with a smaller
-        ``theta``, else with white noise beside it, as an autoregression of the same memory.
+        ``theta``, else with as much white noise beside it, as an autoregression of the same memory.
 
         Of few rows the slow end is known by tenths, and what it lacks there makes of a bias that
         wanders a step.
         """
-        missing, whole = level - self.slow.r, 1.0 - sum(self.coefficients)
-        if missing <= 0.0:
+        if self.slow.r >= level:
             return self
-        if (theta := 1.0 - abs(whole) * np.sqrt(level / self.r)) > 0.0 and self.theta:
-            return replace(self, theta=float(theta))
-        order, turns = len(self.coefficients), np.exp(-2j * np.pi * np.fft.rfftfreq(2 * SETTLED))
+        theta = 1.0 - abs(1.0 - sum(self.coefficients)) * float(np.sqrt(level / self.r))
+        if self.theta and theta > 0.0:
+            return replace(self, theta=theta)
+        products, low, high = self._products(), 0.0, level - self.slow.r
+        while _of_products(products, high).slow.r < level:
+            low, high = high, 2.0 * high
+        for _ in range(HALVED):
+            middle = 0.5 * (low + high)
+            enough = _of_products(products, middle).slow.r >= level
+            low, high = (low, middle) if enough else (middle, high)
+        found = _of_products(products, high)
+        return replace(self, coefficients=found.coefficients, r=found.r, theta=0.0)
+
+    def _products(self) -> np.ndarray:
+        """Covariances (k + 1,) of rows so far apart as its memory is long."""
+        turns = np.exp(-2j * np.pi * np.fft.rfftfreq(2 * SETTLED))
         taps = np.concatenate([[1.0], -np.array(self.coefficients)])
         density = self.r * np.abs((1.0 - self.theta * turns) / np.polyval(taps[::-1], turns)) ** 2
-        products = np.fft.irfft(density + missing)[: order + 1]
-        if not order:
-            return replace(self, r=float(products[0]), theta=0.0)
-        coefficients = solve_toeplitz(products[:-1], products[1:])
-        r = float(products[0] - coefficients @ products[1:])
-        return replace(self, coefficients=tuple(coefficients), r=r, theta=0.0)
+        return np.fft.irfft(density)[: len(taps)]
 
     def in_means(self, count: float) -> Autoregressive:
         """The noise of means over so many rows, one after another: a moving average that has their
@@ -464,6 +474,17 @@ class Autoregressive:
         rows = sum(len(v) - order for v in pieces)
         r = max(float(left) / rows, LEAST_VARIANCE)
         return cls(tuple(coefficients), r, theta=theta)
+
+
+def _of_products(products: np.ndarray, white: float) -> Autoregressive:
+    """The autoregression of rows with covariances (k + 1,), beside ``white`` noise of a variance
+    (Yule and Walker).
+    """
+    whole = np.append(products[0] + white, products[1:])
+    if len(whole) == 1:
+        return Autoregressive((), float(whole[0]))
+    coefficients = solve_toeplitz(whole[:-1], whole[1:])
+    return Autoregressive(tuple(coefficients), float(whole[0] - coefficients @ whole[1:]))
 
 
 def _settling(coefficients: np.ndarray) -> np.ndarray:

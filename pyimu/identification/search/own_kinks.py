@@ -8,13 +8,15 @@ of e, and its noise goes through the effect in truth.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from pyimu.identification.fit.fit import Fit, Last
+from pyimu.identification.fit.errors_in_variables import moved
+from pyimu.identification.fit.fit import Fit, Last, departure
 from pyimu.identification.fit.inputs import LogState
+from pyimu.identification.fit.keys import coefficients_of
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.score import held_state
 from pyimu.identification.fit.trial import MEASURED, Trial
@@ -24,8 +26,9 @@ from pyimu.model.sensor import Sensor
 KINKED = ("scale_factor_asymmetry", *AT_ZERO)
 """Effects that bend the sensor's own signal at once, where it is zero or about."""
 
-ROUNDS = 3
-"""Of the sizes of effects and of where the sensor's own signal has their kinks."""
+ROUNDS, SETTLED = 10, 0.1
+"""Of the sizes of effects and of where the sensor's own signal has their kinks, at most, and the
+standard errors within which the sizes stay."""
 
 
 def with_own_kinks(after: Fit, held: Sequence[Trial]) -> tuple[Fit, list[Trial]]:
@@ -42,8 +45,20 @@ def with_own_kinks(after: Fit, held: Sequence[Trial]) -> tuple[Fit, list[Trial]]
     for _ in range(ROUNDS):
         trials = tuple(_bent(sizes, t, after.states[t.name], names) for t in after.trials)
         after = fit(replace(after, trials=trials, last=Last()).with_noise())
+        if _stay(sizes, after, names):
+            break
         sizes = _half_way(sizes, after.sensor, names)
     return after, [_bent(after.sensor, t, held_state(after, t)[0], names) for t in held]
+
+
+def _stay(sizes: Sensor, after: Fit, names: Sequence[str]) -> bool:
+    """Whether a model has the sizes that its kinks were made with, within what is known of them."""
+    was = replace(after, sensor=sizes)
+    keys = (k for n in names for k in coefficients_of(sizes, n) & after.free)
+    return all(
+        abs(departure(after, k) - departure(was, k)) <= SETTLED * after.std.get(k, 0.0)
+        for k in keys
+    )
 
 
 def _half_way(one: Sensor, other: Sensor, names: Sequence[str]) -> Sensor:
@@ -60,17 +75,34 @@ def _is_smeared(trial: Trial) -> bool:
 
 
 def _bent(sensor: Sensor, trial: Trial, state: LogState, names: Sequence[str]) -> Trial:
+    """The trial, and what it is with its reference moved by its noise, which no kink of the
+    sensor's own signal follows.
+    """
     if not _is_smeared(trial) or not len(trial.time):
         return trial
-    nothing = np.zeros_like(trial.y)
-    own = trial.y - predicted(sensor, trial, state, nothing)
+    own = trial.y - predicted(sensor, trial, state, np.zeros_like(trial.y))
     own = own + trial.y - predicted(sensor, trial, state, own)
-    bent = {}
-    for name in names:
-        plain = sensor.without(name)
-        by_sensor, by_reference = (
-            predicted(sensor, trial, state, change) - predicted(plain, trial, state, change)
-            for change in (own, nothing)
-        )
-        bent[name] = by_sensor - by_reference
+    by_sensor = {n: _of_effect(sensor, trial, state, n, own) for n in names}
+    out = _beyond_reference(sensor, trial, state, by_sensor)
+    for sign in (1, -1) if trial.noise is not None else ():
+        out.moved[sign] = _beyond_reference(sensor, moved(out, sign), state, by_sensor)
+    return out
+
+
+def _beyond_reference(
+    sensor: Sensor, trial: Trial, state: LogState, by_sensor: Mapping[str, np.ndarray]
+) -> Trial:
+    nothing = np.zeros_like(trial.y)
+    bent = {n: v - _of_effect(sensor, trial, state, n, nothing) for n, v in by_sensor.items()}
     return replace(trial, bent=bent)
+
+
+def _of_effect(
+    sensor: Sensor, trial: Trial, state: LogState, name: str, change: np.ndarray
+) -> np.ndarray:
+    """What an effect adds (n, 3) where the sensor's input is the reference's and a ``change`` of
+    it.
+    """
+    plain = sensor.without(name)
+    with_it, without = (predicted(s, trial, state, change) for s in (sensor, plain))
+    return with_it - without

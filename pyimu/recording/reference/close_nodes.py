@@ -120,6 +120,8 @@ def _refined(
 
     def left(p: np.ndarray) -> float:
         own = spacing + p[1] * row / half
+        if own < 0.5 * spacing:  # a rough one is nearer: a search may go on to no spacing at all
+            return np.inf
         return np.log(_left(time, steps, at, (middle + p[0] * row - number * own, own)) + 1e-300)
 
     simplex = np.array([[0.0, 0.0], [0.08, 0.0], [0.0, 0.08]])
