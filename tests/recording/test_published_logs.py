@@ -171,6 +171,79 @@ def test_a_temperature_called_t_is_no_time(log, tmp_path):
     assert "no column is a time" in inspect(written(tmp_path / "log.csv", lines)).report()
 
 
+def test_milliseconds_go_before_whole_seconds_of_the_day(log, tmp_path):
+    """A board's clock in seconds, and beside it a column called ``ms``."""
+    clock = [f"2024/01/05 10:20:{int(t):02d}" for t in log[0]]
+    lines = [f"JST,ms,num,{NAMES}", *rows(clock, 5000 + 1000 * log[0], range(N), log[2], log[1])]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines), tmp_path), log)
+
+
+def test_the_time_from_row_to_row_tells_the_rate(log, tmp_path):
+    steps = 0.01 * (1 + 0.1 * np.sin(np.arange(N)))
+    lines = [f"dt,{NAMES}", *rows(steps, log[2], log[1])]
+    found = by_its_map(written(tmp_path / "log.csv", lines), tmp_path)
+    assert found.sample_rate == pytest.approx(1 / steps.mean(), rel=1e-5)
+    np.testing.assert_allclose(found.gyro, log[1], atol=1e-6)
+
+
+# What stands before and around the numbers
+
+
+def _esp(k, force, rate):
+    pairs = zip(NAMES.split(","), [*force, *rate], strict=True)
+    return f"\x1b[0;32mI ({10 * k}) imu: {' '.join(f'{n}={v:.7f}' for n, v in pairs)}\x1b[0m"
+
+
+def _stamped(k, force, rate):
+    return f"[2024-02-01 10:00:{0.01 * k:06.3f}] {','.join(f'{v:.7f}' for v in (*force, *rate))}"
+
+
+def _arrow(k, force, rate):
+    return f"10:00:{0.01 * k:06.3f} -> {','.join(f'{v:.7f}' for v in (*force, *rate))}"
+
+
+def _lists(k, force, rate):
+    three = [f'"[{", ".join(f"{v:.7f}" for v in vector)}]"' for vector in (force, rate)]
+    return ",".join([f"{0.01 * k:.2f}", *three])
+
+
+def _tuples(k, force, rate):
+    three = [f"({','.join(f'{v:.7f}' for v in vector)})" for vector in (force, rate)]
+    return ";".join([f"{10 * k}", *three])
+
+
+def _printed(k, force, rate):
+    return repr((0.01 * k, np.round(force, 7).tolist(), np.round(rate, 7).tolist()))
+
+
+def _dictionary(k, force, rate):
+    pairs = zip(NAMES.split(","), np.round([*force, *rate], 7).tolist(), strict=True)
+    return repr({"time": 0.01 * k, **dict(pairs)})
+
+
+@pytest.mark.parametrize(
+    ("head", "line"),
+    [
+        *((None, f) for f in (_esp, _stamped, _arrow, _printed, _dictionary)),
+        *(("time,accel,gyro", _lists), ("ms;accel;gyro", _tuples)),
+    ],
+)
+def test_rows_within_what_programs_print_around_them(head, line, log, tmp_path):
+    """ESP-IDF's log in colours, times that terminals write in front, lists in cells, tuples, what
+    Python prints of a list and of a dictionary.
+    """
+    lines = [line(k, log[2][k], log[1][k]) for k in range(N)]
+    path = written(tmp_path / "log.txt", [*([] if head is None else [head]), *lines])
+    agrees(by_its_map(path, tmp_path), log)
+
+
+@pytest.mark.parametrize("zone", ["PM", "-0500", "+01:00", "UTC"])
+def test_what_belongs_to_a_time_is_no_number_behind_it(zone, log, tmp_path):
+    stamps = [f"2024-02-01 10:00:{t:06.3f} {zone}" for t in log[0]]
+    lines = [f"time,{NAMES}", *rows(stamps, log[2], log[1])]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines), tmp_path), log)
+
+
 # Increments
 
 

@@ -27,6 +27,7 @@ from pyimu.recording.formats.mixed_rows import OF_OTHERS, Mixed, mixed_rows
 from pyimu.recording.formats.novatel import novatel
 from pyimu.recording.formats.optical import optical
 from pyimu.recording.formats.plain_numbers import Plain, plain_numbers
+from pyimu.recording.formats.prefixes import behind, without_prefixes
 from pyimu.recording.formats.sections import Sections, sections
 from pyimu.recording.formats.thousands import without_marks
 from pyimu.recording.formats.told import HEAD, Layout, told_from
@@ -70,6 +71,16 @@ def layout_of(path: Path, topic: str = "") -> Layout:
         raise UserError(f"{path}: is empty")
     if any("\r" in line.rstrip("\r\n") for line in head[:1]):
         raise UserError(f"{path}: {CARRIAGE}")
+    clean = without_prefixes(head)
+    if clean is None:
+        return replace(_told(head, path, topic), code=code_of(path))
+    found = _told([clean(line) for line in head], path, topic)
+    marked = behind(clean, found.marked, found.names, found.clocks)
+    return replace(found, marked=marked, code=code_of(path))
+
+
+def _told(head: Sequence[str], path: Path, topic: str) -> Layout:
+    """The layout of a table with these first lines; raises UserError as ``layout_of`` does."""
     marked = None if topic else echoed(head)
     if marked is None and _ROS <= {line.strip() for line in head}:
         raise UserError(f"{path}: is no table; {MESSAGES}")
@@ -81,24 +92,22 @@ def layout_of(path: Path, topic: str = "") -> Layout:
             first=next(told, 1),
             clocks=marked.clocks,
             rate=marked.rate,
-            code=code_of(path),
             marked=marked,
         )
     ended = _ended(head)
     if ended is not None:
-        return replace(ended, code=code_of(path))
+        return ended
     table = optical(head)
     if table is not None:
-        found = Layout(table.separator, ".", table.names, table.first, rate=table.rate)
-        return replace(found, code=code_of(path))
+        return Layout(table.separator, ".", table.names, table.first, rate=table.rate)
     if any(line.startswith("Type,Local Number,Message,Field 1,") for line in head[:1]):
         raise UserError(
             f"{path}: is a list of FIT's messages, with several samples in a cell; {FIT}"
         )
-    behind = sections(head)
-    if behind is not None:
-        return replace(_behind(behind), code=code_of(path))
-    found = replace(_of_table(head, topic), code=code_of(path))
+    below = sections(head)
+    if below is not None:
+        return _behind(below)
+    found = _of_table(head, topic)
     for row, line in enumerate(head[: found.first - 1], 1):
         line = line.rstrip("\r\n")
         if not is_comment(line) and len(found.cells(line)) > 1 and found.is_open(line):

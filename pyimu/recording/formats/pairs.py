@@ -26,14 +26,17 @@ LEAST = 3
 
 _BEHIND = r"(?=$|[\s,;|})\]A-Za-z°µ])"
 _WORDS = r"(?P<label>[A-Za-z_][\w./()\[\]°]*(?: (?![\[({][.\d])[\w./()\[\]°]+)*)"
-_LABEL = re.compile(rf'[\s,;|]*"?{_WORDS}"?\s*[:=]\s*(?P<open>[\[({{]\s*)?')
-_BARE = re.compile(r'[\s,;|]*"?(?P<label>[A-Za-z_]\w*(?: [A-Za-z_]\w*)*)"?\s*(?P<open>[\[({])\s*')
+_QUOTE = "[\"']?"
+_LABEL = re.compile(rf"[\s,;|]*{_QUOTE}{_WORDS}{_QUOTE}\s*[:=]\s*(?P<open>[\[({{]\s*)?")
+_BARE = re.compile(
+    rf"[\s,;|]*{_QUOTE}(?P<label>[A-Za-z_]\w*(?: [A-Za-z_]\w*)*){_QUOTE}\s*(?P<open>[\[({{])\s*"
+)
 _VALUE = re.compile(rf"(?P<value>{NUMBER}){_BEHIND}")
 _NEXT = re.compile(rf"(?P<by>\s*[,;|]\s*|\s+)(?P<value>{NUMBER}){_BEHIND}(?!\s*[:=])")
 _CLOSE = re.compile(r"\s*[\])}]")
 _WORD = re.compile(r"\s*([A-Za-z°µ%][^\s,;|:=}]*)(?=$|[\s,;|}])")
 _STAMP = re.compile(r"\s*(\d{1,2}:\d{2}:\d{2}[.,]?\d*)\s*->\s*")
-_FRONT = re.compile(r"\s*(\d+\.?\d*)(?:\s*[:;,]\s*|\s+)(?=[A-Za-z_\"])")
+_FRONT = re.compile(r"\s*(\d+\.?\d*)(?:\s*[:;,]\s*|\s+)(?=[A-Za-z_\"'])")
 _ALL_AXES = re.compile(r"[ _.]?\(?[xX],?[yY],?[zZ]\)?$")
 
 
@@ -97,7 +100,7 @@ def _item(line: str, at: int) -> tuple[int, Pairs, str] | None:
         at, behind = word.end(), rf"\s*{re.escape(word[1])}(?=$|[\s,;|}}])"
     name = label["label"]
     numbers = rf"({NUMBER})" + "".join(rf"{mark}({NUMBER})" for mark in marks)
-    begins = rf'[\s,;|]*"?{re.escape(name)}"?\s*{sign}'
+    begins = rf"[\s,;|]*{_QUOTE}{re.escape(name)}{_QUOTE}\s*{sign}"
     around = (r"\s*[\[({]\s*", r"\s*[\])}]") if bracket else (r"\s*", "")
     part = f"{begins}{around[0]}{numbers}{around[1] or _BEHIND}{behind}"
     each = _names(name, len(values)) if len(values) > 1 or bracket else [name]

@@ -1,6 +1,6 @@
 """Numbers that are written otherwise than programs read them: with their unit in the cell
-(``9.81 m/s2``), with the minus sign of printers, in hexadecimal digits, with Fortran's exponent, or
-with decimal commas between commas.
+(``9.81 m/s2``), with the minus sign of printers, in hexadecimal digits, with Fortran's exponent,
+with decimal commas between commas, or several in a cell as a list (``"[0.1, 0.2, 9.8]"``).
 """
 
 from __future__ import annotations
@@ -24,6 +24,11 @@ _HEXADECIMAL = re.compile(r"(?<![\w.:-])0[xX]([0-9A-Fa-f]{1,8})(?![\w.:-])")
 _WITH_UNIT = re.compile(
     r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\W\d_][^\s,;]*|[°º%/][^\s,;]*)\s*"
 )
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_LIST = re.compile(rf"['\"]?[\[({{]\s*({_NUMBER}(?:(?:\s*[,;]\s*|\s+){_NUMBER})+)\s*[\])}}]['\"]?")
+_BETWEEN = re.compile(r"\s*[,;]\s*|\s+")
+_AROUND = " []()"
+"""What may stand around all of a row, as where a program printed a list of lists."""
 _WHOLE, _FRACTION = re.compile(r"\s*[-+]?\d+"), re.compile(r"\d+\s*")
 
 SHARE = 0.9
@@ -54,7 +59,7 @@ def plain_numbers(lines: Sequence[str]) -> Plain | None:
     ):
         if _share(pattern.search(row) is not None for row in tail) >= SHARE / 2:
             return Plain(_substitution(pattern, by), said)
-    return _with_units(tail) or _with_commas(rows)
+    return _with_units(tail) or _with_lists(tail) or _with_commas(rows)
 
 
 def _substitution(pattern: re.Pattern[str], by: str | Callable[[re.Match[str]], str]) -> Rewrite:
@@ -99,6 +104,47 @@ def _without_units(units: Mapping[int, str], width: int, separator: str) -> Rewr
             match = _WITH_UNIT.fullmatch(row[k])
             row[k] = row[k] if match is None else match[1]
         return separator.join(row)
+
+    return rewrite
+
+
+def _with_lists(tail: Sequence[str]) -> Plain | None:
+    """How rows are read with several numbers in a cell, as many in each row; the name above such a
+    cell becomes one for each of them.
+    """
+    kinds = Counter(tuple(_counts(row)) for row in tail)
+    (counts, seen), *_ = kinds.most_common(1) or [((), 0)]
+    if not counts or seen < SHARE * len(tail):
+        return None
+    row = next(row for row in tail if tuple(_counts(row)) == counts)
+    outside = _LIST.sub("\0", row).strip(_AROUND)
+    by = max(",;\t|", key=outside.count)
+    cells = outside.split(by if by in outside else ",")
+    lists = [k for k, cell in enumerate(cells) if "\0" in cell]
+    if len(lists) != len(counts):
+        return None
+    places = dict(zip(lists, counts, strict=True))
+    return Plain(_unrolled(places, len(cells), by), "several numbers in a cell")
+
+
+def _counts(row: str) -> list[int]:
+    """How many numbers each list in a row has."""
+    return [len(_BETWEEN.split(match[1])) for match in _LIST.finditer(row)]
+
+
+def _unrolled(places: Mapping[int, int], width: int, by: str) -> Rewrite:
+    def rewrite(line: str) -> str:
+        if _LIST.search(line):
+            flat = _LIST.sub(lambda match: by.join(_BETWEEN.split(match[1])), line)
+            return flat.strip(_AROUND + ",")
+        names = line.split(by)
+        if len(names) != width:
+            return line
+        each = [
+            [f"{n.strip()}[{i}]" for i in range(places.get(k, 0))] or [n]
+            for k, n in enumerate(names)
+        ]
+        return by.join(name for some in each for name in some)
 
     return rewrite
 

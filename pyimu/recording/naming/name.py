@@ -23,6 +23,7 @@ from pyimu.recording.naming.words import (
     TEMPERATURES,
     TICKS,
     TIMES,
+    UNITS_ALONE,
     WEAK,
 )
 from pyimu.recording.spelling import unit_of
@@ -49,11 +50,13 @@ class Name:
     @property
     def is_time(self) -> bool:
         """Whether it is called a time, none between rows, and is in no unit that is none of times:
-        ``T(°)``; ``Chip Time()`` is one.
+        ``T(°)``; ``Chip Time()`` is one, and ``ms``.
         """
         other = self.unit not in (None, "1") and self.clock is None
         if self.axis or other or set(self.words) & STEPS:
             return False
+        if len(self.words) == 1 and self.words[0] in UNITS_ALONE:
+            return True
         return bool(set(self.words) & (TIMES | MORE_TIMES | set(TICKS)))
 
     @property
@@ -98,6 +101,8 @@ def named(cell: str) -> Name:
         words, unit = in_words(words, {*"xyz", *ROLLS, *TIMES, *TEMPERATURES})
     if unit is None and not said and words and words[-1] in TICKS:
         unit = TICKS[words[-1]]
+    if unit is None and not said and len(words) == 1:
+        unit = UNITS_ALONE.get(words[0])
     if unit is None and not said and set(words[:-1]) & TEMPERATURES and words[-1] in LETTERS:
         unit = LETTERS[words.pop()]
     axis, words = _axis(words)

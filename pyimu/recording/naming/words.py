@@ -37,6 +37,12 @@ TICKS = {"millis": "ms", "micros": "us", "nanos": "ns", "cts": "ms"}
 """Words for times that say their unit, as Arduino's functions are called; ``cts`` is that of a
 camera's film in the tables that are made of GoPro's."""
 
+UNITS_ALONE = {"ms": "ms", "msec": "ms", "us": "us", "usec": "us"}
+"""Units of times that are the whole name of a column."""
+
+PERIODS = {"dt", "deltat", "delta", "diff", "interval", "period", "elapsed"}
+"""Words of a column with the time from row to row, alone or beside one for a time."""
+
 STEPS = {"delta", "diff", "interval"}
 """Words beside those of times for the time from row to row."""
 
