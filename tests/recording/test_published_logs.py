@@ -89,6 +89,26 @@ def test_each_sensor_in_rows_of_its_own(units, word, log, tmp_path):
     assert not any("other rows" in str(f) for f in found.findings)
 
 
+def test_a_gyro_in_each_fourth_row_has_its_own_rate(log, tmp_path):
+    """The accelerometer is sampled four times as fast: a gyro at its rate would be missing mostly,
+    and turn too little to tell its unit.
+    """
+    force = rows(log[0], log[2])
+    slow = rows(log[1])
+    lines = [f"{f},{slow[k]}" if k % 4 == 0 else f"{f},,," for k, f in enumerate(force)]
+    path = written(tmp_path / "log.csv", [f"time,{NAMES}", *lines])
+    found = by_its_map(path, tmp_path)
+    assert found.sample_rate == pytest.approx(25)
+    np.testing.assert_allclose(found.gyro, log[1][::4], atol=1e-6)
+    np.testing.assert_allclose(found.accel, log[2][::4], atol=1e-5)
+
+
+def test_a_number_of_the_sensor_is_heeded_under_more_names(log, tmp_path):
+    both = zip(rows([0] * N, *log), rows([1] * N, log[0], -log[1], -log[2]), strict=True)
+    lines = ["sensor_no,time,gx,gy,gz,ax,ay,az", *(line for pair in both for line in pair)]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines), tmp_path), log)
+
+
 def test_flysight_s_lines_of_each_sensor(log, tmp_path):
     """The magnetometer's lines, which come more seldom, are further columns."""
     field = np.outer(1 + 0.1 * np.sin(log[0]), [0.2, -0.1, 0.4])
@@ -326,6 +346,12 @@ def test_an_accelerometer_that_only_its_unit_tells_is_not_lost(log, tmp_path):
     head += ";LinX(m/s²);LinY(m/s²);LinZ(m/s²)"
     lines = [head, *rows(1000 * log[0], log[2], log[1], 0 * log[2], by=";")]
     agrees(read_recording(written(tmp_path / "log.csv", lines)), log)
+
+
+def test_rates_called_r_are_told_by_gravity(log, tmp_path):
+    """RX, RY and RZ, as watches' programs call them."""
+    lines = ["time,AX,AY,AZ,RX,RY,RZ", *rows(log[0], log[2] / G, log[1])]
+    agrees(by_its_map(written(tmp_path / "log.csv", lines), tmp_path), log)
 
 
 def test_counts_of_a_thermometer_have_no_unit_of_temperatures(log, tmp_path):

@@ -36,8 +36,8 @@ EVEN = 0.5
 LEAST = 6
 """Numbers in a row of a table without names that may be of a device: two vectors."""
 
-TOGETHER = 0.02
-"""Share of the rows up to which both sensors may have cells in one, as where their times meet."""
+MOST = 0.75
+"""Share of the rows from which on a gyro is that of all of them, with some cells missing."""
 
 SEEN = 0.1
 """Share of the rows that each sensor has at least."""
@@ -154,16 +154,18 @@ def _apart(
 ) -> Mixed | None:
     """The rows of the gyro, or those of the sensor ``topic``, where each has its own."""
     filled = {kind: [_has(row, triad.positions) for row in rows] for kind, triad in vectors.items()}
-    if _share(map(all, zip(filled["gyro"], filled["accel"], strict=True))) > TOGETHER:
-        return None
     kinds = [kind for kind in KINDS if kind in filled and _share(filled[kind]) > SEEN]
-    if not {"gyro", "accel"} <= set(kinds) or (topic and topic not in kinds):
+    if not {"gyro", "accel"} <= set(kinds) or _share(filled["gyro"]) > MOST:
+        return None
+    if topic and topic not in kinds:
         return None
     own = topic or kinds[0]
     there = [row for row, has in zip(rows, filled[own], strict=True) if has]
-    empty = tuple(k for k in range(len(there[0])) if all(row[k] in MISSING for row in there))
-    beside = {k for k in kinds if set(vectors[k].positions) & set(empty)}
-    others = tuple(kind for kind in kinds if kind != own and (topic or kind in beside))
+    empty = {k for k in range(len(there[0])) if all(row[k] in MISSING for row in there)}
+    # A magnetometer that has cells in the gyro's rows, and in no more, is beside it.
+    same = {kind for kind in kinds if filled[kind] == filled[own]}
+    others = tuple(kind for kind in kinds if kind not in same)
+    empty |= {k for kind in others for k in vectors[kind].positions}
     at, width = vectors[own].positions, len(rows[0])
 
     def keeps(line: str) -> bool:
@@ -171,7 +173,7 @@ def _apart(
         return len(row) != width or _has(row, at)
 
     said = f"the rows with cells of the {own}"
-    return Mixed(own, others, keeps, said, empty, joined=True)
+    return Mixed(own, others, keeps, said, tuple(empty), joined=True)
 
 
 def _has(row: Sequence[str], at: Iterable[int]) -> bool:

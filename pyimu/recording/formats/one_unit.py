@@ -21,6 +21,9 @@ beside them there."""
 NUMBERS = tuple((word,) for word in ("id", "sensor", "imu", "device", "node", "unit", "instance"))
 """Last words of the names of columns that may number the units in any other table."""
 
+COUNTED = {"no", "nr", "num", "number", "index"}
+"""Last words behind one of those: ``sensor_no``."""
+
 MOST_UNITS = 16
 """Units whose samples stand in one table, at most."""
 
@@ -85,7 +88,8 @@ def with_one_unit(reader: Reader) -> Reader:
 def _is_number_of_unit(cell: str) -> bool:
     """Whether a column is called as one that numbers sensors is: ``sensor_id``, ``Device``."""
     name = named(cell)
-    return name.words[-1:] in NUMBERS and not name.axis and not name.unit
+    words = name.words[:-1] if name.words[-1:] and name.words[-1] in COUNTED else name.words
+    return words[-1:] in NUMBERS and not name.axis and not name.unit
 
 
 def _come_in_turn(numbers: np.ndarray, counts: np.ndarray) -> bool:

@@ -16,7 +16,7 @@ RUN_TOGETHER = {"rads": "rad/s", "radps": "rad/s", "degs": "deg/s", "degps": "de
 }
 """Units without their sign of division, as names in programs have them."""
 
-GLUED = re.compile(r"(gyro?|acce?l?|mag|[gwamqfh])_?([wxyz])")
+GLUED = re.compile(r"(gyro?|acce?l?|mag|[gwamqfhr])_?([wxyz])")
 """A word for a vector, or its letter, and the axis in one: ``gx``, ``accy``."""
 
 LONGEST = 4
