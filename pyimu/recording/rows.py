@@ -25,6 +25,7 @@ from pyimu.recording.formats.timed import TIME, TimedReader
 from pyimu.recording.header import Header
 from pyimu.recording.known import left_out, merged, recognised, said
 from pyimu.recording.made import with_made_columns
+from pyimu.recording.own_rows import in_own_rows
 from pyimu.recording.quality.tally import Tally
 from pyimu.recording.waking import Waking
 
@@ -101,6 +102,8 @@ class Source:
         findings: tuple[Finding, ...] = ()
         is_known = False
         reader, foreign = with_made_columns(reader, foreign)
+        if foreign.columns and reader.words:
+            foreign = in_own_rows(reader, foreign)
         if not foreign.columns:
             known = recognised(reader, wanted, foreign.rate)
             if known is not None:

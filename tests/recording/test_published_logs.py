@@ -87,6 +87,12 @@ def test_each_sensor_in_rows_of_its_own(units, word, log, tmp_path):
     np.testing.assert_allclose(found.gyro, log[1], atol=1e-6)
     np.testing.assert_allclose(found.accel, log[2], atol=1e-5)
     assert not any("other rows" in str(f) for f in found.findings)
+    named = zip(lines[0].split(",")[1 + word :], TARGETS, strict=True)
+    first = f'[columns]\n"{lines[0].split(",")[0]}" = "time [s]"\n'
+    by_hand = "".join(f'"{cell}" = "{target}"\n' for cell, target in named)
+    by_hand = by_hand.replace("[g]", "[m/s^2]").replace("[deg/s]", "[rad/s]")
+    (tmp_path / "map.toml").write_text(first + by_hand)
+    np.testing.assert_array_equal(read_recording(path, tmp_path / "map.toml").accel, found.accel)
 
 
 def test_a_gyro_in_each_fourth_row_has_its_own_rate(log, tmp_path):
