@@ -138,6 +138,7 @@ def test_devices_without_names_of_columns(log, tmp_path):
     one, two = (np.hstack([log[2] / G, np.degrees(log[1])])[:, order] for order in ORDERS)
     both = zip(rows(["IMU"] * N, ["0x69"] * N, two), rows(["IMU"] * N, ["0x68"] * N, one))
     path = written(tmp_path / "log.txt", [line for pair in both for line in pair])
+    assert "[topics] imu names others" in inspect(path).report()
     columns = "".join(f'"column {k + 3}" = "{name}"\n' for k, name in enumerate(TARGETS))
     given = 'sample_rate = {value = 100, unit = "Hz"}\n[columns]\n' + columns
     for word, order in (("0x69", ORDERS[1]), ("0x68", ORDERS[0])):

@@ -82,6 +82,8 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     Raises UserError where its numbers cannot be read.
     """
     found = Proposal(reader.path, tuple(reader.header), topic=reader.word)
+    if reader.word and not reader.words:
+        found.notes.append(f"the rows {reader.word} alone are read; [topics] imu names others")
     numbers = Numbers(reader)
     period = add_time(found, reader, numbers, rate)
     vectors = triads(reader.header, reader.path.name)
