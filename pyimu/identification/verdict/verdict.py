@@ -115,16 +115,16 @@ def verdict(e: Evidence) -> Verdict:
 def _verdict(e: Evidence) -> Verdict:
     if e.unfit:
         return Verdict("reference_unfit", e.unfit)
-    left = left_of(e)
+    left, shapes = left_of(e), [u for u in e.unexplained if u.shape]
     if e.added and all(a.effect in e.formulas for a in e.added):
         said = joined([f"{a.sensor}: {e.formulas[a.effect]}" for a in e.added])
         why = f"no effect of the catalogue describes it, a formula does: {said}"
         return Verdict("unexplained", why, (left,) if left else ())
     if e.added:
         names = ", ".join(f"{a.sensor} {a.effect}" for a in e.added)
-        still_open = tuple(filter(None, [open_of(e)]))
-        return Verdict("partly", names, (left,)) if left else Verdict("named", names, still_open)
-    shapes = [u for u in e.unexplained if u.shape]
+        if left or shapes:
+            return Verdict("partly", names, (left,) if left else ())
+        return Verdict("named", names, tuple(filter(None, [open_of(e)])))
     if shapes:
         u = shapes[0]
         return Verdict("unexplained", f"{u.sensor} {u.axis} shows {u.shape}")
