@@ -1,16 +1,16 @@
 """Slow noise that the motion drives: a bias that changes as the sensor turns, or as its input
-changes, and hardly while that rests.
+changes, and hardly while that rests; or one that is its input times a gain that wanders.
 
 Noise changes as fast at rest as in motion. What a motion leaves in a residual and no column
 explains (rubbing, a belt that creeps, a cable that is dragged along, a seat with play) is slow,
 too, and its spectrum comes near that of a kind of noise; but it goes on with the motion and not
-with time. A Gauss-Markov process along what moved in place of time tells the two apart: it has as
-many numbers, so that their likelihoods are compared as they are.
+with time. A Gauss-Markov process along what moved in place of time, or of a gain in place of a
+bias, tells them apart: it has as many numbers, so that the likelihoods are compared as they are.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 
@@ -18,16 +18,18 @@ import numpy as np
 
 from pyimu.identification.noise.explained import Explained
 from pyimu.identification.noise.jumps import Jump, Jumping
-from pyimu.identification.noise.levels import MARKOV, markov_likelihood
+from pyimu.identification.noise.levels import MARKOV, gain_likelihood, markov_likelihood
 from pyimu.identification.noise.rows import Rows
 from pyimu.identification.search.choice import SET_WIDTH
 
 TURNED = "a bias that changes as the sensor turns"
 FOLLOWS = "a bias that changes with its input"
+GAIN = "a scale factor that wanders"
 
 DRIVEN = {
     TURNED: "it goes on with the angle turned, and hardly while the sensor rests",
     FOLLOWS: "it goes on as that changes, and hardly while it stays",
+    GAIN: "it is a share of the input, which is another from minute to minute",
 }
 """By name what the motion drives and no effect describes, and how that looks."""
 
@@ -40,6 +42,9 @@ SPEEDS: tuple[tuple[str, Speed], ...] = (
 )
 """What may drive an axis, and how fast (n,) it moves."""
 
+CHOICES = len(SPEEDS) + 1
+"""Ways in which an axis may be driven."""
+
 AT_REST = 0.1
 """Share of a log's time that goes by where nothing moves: what is slow never stands quite still."""
 
@@ -50,7 +55,7 @@ def driven_of(found: Explained) -> dict[int, Jump]:
     """
     looked = Jumping(found)
     best = {i: _most(looked, i) for i in found.state.axes if looked.wanders(i)}
-    least = SET_WIDTH + np.log(len(SPEEDS))
+    least = SET_WIDTH + np.log(CHOICES)
     if all(one.gain <= least for one in best.values()):
         return {}
     return {i: one for i, one in best.items() if one.gain > -SET_WIDTH}
@@ -62,11 +67,15 @@ def _most(looked: Jumping, i: int) -> Jump:
     """
     by_time = looked.of(markov_likelihood, [i], MARKOV)
     known = max(by_time, looked.slow_noise([i]))
-    moved = (
-        Jump(looked.of(markov_likelihood, [i], MARKOV, partial(_along, speed, i)) - known, name)
-        for name, speed in SPEEDS
-    )
-    return max(moved)
+    best, name = max(_each(looked, i))
+    return Jump(best - known, name)
+
+
+def _each(looked: Jumping, i: int) -> Iterator[tuple[float, str]]:
+    """The log-likelihood [nat] of each way in which an axis may be driven."""
+    for name, speed in SPEEDS:
+        yield looked.of(markov_likelihood, [i], MARKOV, partial(_along, speed, i)), name
+    yield looked.of(gain_likelihood, [i], MARKOV), GAIN
 
 
 def _along(speed: Speed, i: int, one: Rows) -> Rows | None:

@@ -8,8 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.trial import Trial
 from pyimu.identification.noise.choose import Term
 from pyimu.identification.noise.explained import Explained
 from pyimu.identification.noise.levels import (
@@ -23,12 +21,11 @@ from pyimu.identification.noise.telegraph import FINE, RATES, telegraph_likeliho
 from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import WALK
-from pyimu.model.sensor import Sensor
 
 POPCORN = "random telegraph (popcorn) noise"
 LEVELS = "a bias of many levels"
 
-SHAPES = {
+JUMPS = {
     POPCORN: "it jumps between two levels at random instants",
     LEVELS: "it jumps to another level at random instants, and stays there until the next",
 }
@@ -64,19 +61,6 @@ def jumps_of(found: Explained) -> dict[int, Jump]:
     if sum(apart.values()) <= SET_WIDTH:
         return {}
     return {i: Jump(gain, shape) for i, gain in apart.items()}
-
-
-def likelihood_of(
-    sensor: Sensor, fit: Fit, held: tuple[Trial, ...], free: frozenset[str], rounds: bool
-) -> float | None:
-    """Log-likelihood [nat], penalised, of the fitted and the held-out rows of a model beside the
-    kinds of noise that explain most of its residual; None where ``noise_of`` says nothing.
-    """
-    known = Explained.of(sensor, fit, held, free, rounds)
-    if known is None:
-        return None
-    found = known.chosen_of(1)
-    return found.explained() + sum(jump.gain for jump in jumps_of(found).values())
 
 
 class _Log(NamedTuple):

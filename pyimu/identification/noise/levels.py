@@ -145,14 +145,33 @@ def markov_likelihood(axes: Sequence[Rows], white: np.ndarray, walk: np.ndarray)
     return total
 
 
-def _markov_of_axis(one: Rows, white: np.ndarray, walk: float, spread: float) -> float:
-    r, diffuse = one.r - one.r[0], DIFFUSE * (float(white.mean()) + spread)
+def gain_likelihood(axes: Sequence[Rows], white: np.ndarray, walk: np.ndarray) -> float:
+    """That of a gain in place of a bias: each axis's input times a Gauss-Markov process; none where
+    an axis has no input.
+    """
+    total = 0.0
+    for a, (one, spread) in enumerate(zip(axes, _spread(axes, white), strict=True)):
+        size = float(np.mean(one.x**2))
+        if not size > 0.0:
+            return -np.inf
+        known = np.ascontiguousarray(white[:, a]), float(walk[a]), spread / size
+        total += _markov_of_axis(one, *known, one.x)
+    return total
+
+
+def _markov_of_axis(
+    one: Rows, white: np.ndarray, walk: float, spread: float, gains: np.ndarray | None = None
+) -> float:
+    """That of one axis; the process is seen times ``gains`` (n,), where there are any."""
+    r, diffuse = one.r - one.r[0], DIFFUSE * (float(white.mean()) + float(np.var(one.r)))
 
     def lost(p: np.ndarray) -> float:
-        variance = np.array([spread * np.exp(np.clip(p[0], -8.0, 8.0))])
-        time = np.array([np.exp(np.clip(p[1], -3.0, 12.0))])
-        each = exact_filtered(r, one.steps, white, walk, variance, time, diffuse)
-        return -float(each[1:].sum())
+        variance = spread * np.exp(np.clip(p[0], -8.0, 8.0))
+        time = np.exp(np.clip(p[1], -3.0, 12.0))
+        if gains is not None:
+            return -_seen_times(r, gains, one.steps, white, walk, variance, time, diffuse)
+        known = white, walk, np.array([variance]), np.array([time]), diffuse
+        return -float(exact_filtered(r, one.steps, *known)[1:].sum())
 
     first = min(([0.0, np.log(d)] for d in DWELLS), key=lost)
     options = {"xatol": 3e-2, "fatol": 0.05, "maxfev": 120}
@@ -161,6 +180,36 @@ def _markov_of_axis(one: Rows, white: np.ndarray, walk: float, spread: float) ->
         lost, first, method="Nelder-Mead", options=options | {"initial_simplex": simplex}
     )
     return -float(found.fun)
+
+
+@njit(cache=True)
+def _seen_times(r, gains, steps, white, walk, variance, time, diffuse):
+    """Log-likelihood [nat, constant left out] of residuals (n,) given the first: a bias, of any
+    size at first, that walks by ``walk`` a second, and ``gains`` (n,) times a Gauss-Markov process.
+    """
+    bias, process, total, kept, last = 0.0, 0.0, 0.0, 1.0, -1.0
+    b, c, p = diffuse, 0.0, variance
+    for k in range(len(r)):
+        if k > 0:
+            if steps[k] != last:
+                last = steps[k]
+                kept = np.exp(-last / time)
+            process *= kept
+            b += walk * last
+            c *= kept
+            p = kept * kept * p + variance * (1.0 - kept * kept)
+        x = gains[k]
+        of_bias, of_process = b + c * x, c + p * x
+        f = of_bias + of_process * x + white[k]
+        v = r[k] - bias - x * process
+        if k > 0:
+            total -= 0.5 * (np.log(f) + v * v / f)
+        bias += of_bias / f * v
+        process += of_process / f * v
+        b -= of_bias * of_bias / f
+        c -= of_bias * of_process / f
+        p -= of_process * of_process / f
+    return total
 
 
 def _spread(axes: Sequence[Rows], white: np.ndarray) -> np.ndarray:

@@ -9,11 +9,11 @@ import numpy as np
 
 from pyimu.identification.found.entries import Added, Changed
 from pyimu.identification.noise.choose import Chosen, State, Term, refined
-from pyimu.identification.noise.driven import driven_of
 from pyimu.identification.noise.exact import AxisNoise
 from pyimu.identification.noise.explained import Explained
-from pyimu.identification.noise.jumps import Jump, jumps_of
+from pyimu.identification.noise.jumps import Jump
 from pyimu.identification.noise.laws import Kind, names_of
+from pyimu.identification.noise.shapes import shapes_of
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.forward import Investigation, Refused
 from pyimu.identification.search.leftover import Unexplained
@@ -69,17 +69,11 @@ def noise_of(
     if known is None:
         return Noise(unasked=DIFFERENTIATED)
     found = known.chosen_of(sensors)
-    shapes = _clearest(jumps_of(found), driven_of(found))
+    shapes = shapes_of(found)
     if shapes:
         rest = State({i: a for i, a in known.state.axes.items() if i not in shapes})
         found = replace(known, state=rest).chosen_of(sensors)
     return found.confirmed().told(shapes)
-
-
-def _clearest(one: Mapping[int, Jump], other: Mapping[int, Jump]) -> dict[int, Jump]:
-    """By axis what all axes together speak for, and what is left to the other of the two."""
-    less, more = sorted((one, other), key=lambda found: sum(j.gain for j in found.values()))
-    return {**less, **more}
 
 
 class _Named(Explained):

@@ -9,8 +9,7 @@ from pyimu.identification.formula.effect import TERM, coefficients
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.found.entries import Added, AtRest, Errors
 from pyimu.identification.model.as_part import SENSORS, si_of
-from pyimu.identification.noise.driven import DRIVEN
-from pyimu.identification.noise.jumps import SHAPES
+from pyimu.identification.noise.shapes import SHAPES
 from pyimu.identification.outcome import Outcome
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.model.arguments import Parameter
@@ -171,7 +170,7 @@ def dependence(closed: Outcome) -> str:
 
 def _does(u: Unexplained) -> str:
     if u.shape:
-        looks = (SHAPES | DRIVEN).get(u.shape)
+        looks = SHAPES.get(u.shape)
         return f"is {u.shape}" + (f": {looks}" if looks else "")
     return f"depends on {joined([_input(d) for d in u.depends_on])} (p = {number(u.p_value, 1)})"
 

@@ -13,8 +13,8 @@ from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.formula.search import Look
-from pyimu.identification.noise.jumps import likelihood_of
 from pyimu.identification.noise.rounding import rounding
+from pyimu.identification.noise.shapes import likelihood_of
 from pyimu.identification.search.forward import (
     AS_NOISE,
     AS_ROUNDING,
