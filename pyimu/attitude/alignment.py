@@ -34,8 +34,8 @@ TILT_STD = 0.01
 MOVING_TILT_STD = 0.3
 """rad; tilt of an attitude levelled while moving, at most."""
 
-PUSHED_TILT_STD = 0.1
-"""rad; the same where the force does not change: a push of 1 m/s^2."""
+PUSHED_TILT_STD = 0.2
+"""rad; the same where the force does not change: a push of 2 m/s^2, as of a car in a bend."""
 
 YAW_STD = 1e-3
 """rad; yaw starts at the given heading."""

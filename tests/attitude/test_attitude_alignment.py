@@ -116,10 +116,10 @@ def test_without_gravity_nothing_is_levelled(case):
 
 
 @pytest.mark.parametrize(
-    "size, least, most", [(0.0, 0.1, 0.102), (1.5, 0.13, 0.165), (9.0, 0.29, 0.31)]
+    "size, least, most", [(0.0, 0.2, 0.202), (1.5, 0.21, 0.24), (9.0, 0.29, 0.31)]
 )
 def test_levelled_in_motion_the_tilt_is_as_unsure_as_the_force_scatters(size, least, most):
-    """An even force may be a push of 1 m/s^2; to that a sine adds its root mean square over g, as
+    """An even force may be a push of 2 m/s^2; to that a sine adds its root mean square over g, as
     half a second has it, up to 0.3 rad in all. A row without a finite force has no say.
     """
     world, rows = drive(turning(1.0, 1000)), np.arange(1000)

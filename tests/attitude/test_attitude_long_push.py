@@ -1,5 +1,7 @@
 """Turns that last: pushes that look like gravity, and turns that look like a gyro's bias."""
 
+from dataclasses import replace
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run
 from pyimu.attitude.columns import NOMINAL_MOTION_BIAS, motion_bias
-from pyimu.attitude.filter.long_push import LEAST, LongPush, followed
+from pyimu.attitude.filter.long_push import FIRST, LEAST, LongPush, followed
 from pyimu.attitude.filter.variables import USUAL
 from pyimu.attitude.filter.velocity import FIRST_STD, UNLEVELLED, first_std
 from pyimu.recording.recording import Recording
@@ -103,8 +105,8 @@ def test_the_bias_is_unsure_by_how_much_the_body_turns():
 def pushed(level: float, own: float = 0.0, across: float = 0.0, seconds: float = 60.0) -> float:
     """The variance that a force of ``level`` m/s^2 shows for so many seconds."""
     push = LongPush.start()
-    state = ca.SX.sym("x", 3)
-    now = LongPush(state[:2], state[2])
+    state = ca.SX.sym("x", 4)
+    now = LongPush(state[:2], state[2], state[3])
     after = followed(now, ca.vertcat(level, 0), own, across, 1.0, H)
     step = ca.Function("step", [state], [ca.vertcat(*after.pack())])
     last = step.mapaccum(round(seconds / H))(ca.vertcat(*push.pack()))
@@ -116,6 +118,59 @@ def test_a_push_that_lasts_has_its_mean_square_beyond_what_tilt_and_velocity_mak
     assert pushed(3.0, own=0.5) == pytest.approx(4.5 - 1.5 - LEAST**2, rel=1e-3)
     assert pushed(LEAST) == 0
     assert pushed(3.0, across=100.0) == 0
+
+
+def test_pushes_that_were_not_excluded_are_once_the_force_stays_small():
+    """By exp(-60/5) of what they were after a minute without a force; while the force is large
+    they are what they may be.
+    """
+    for level in (0.0, 2.0):
+        state = ca.SX.sym("x", 4)
+        now = LongPush(state[:2], state[2], state[3])
+        after = followed(now, ca.vertcat(level, 0), 100.0, 0.0, 1.0, H)
+        step = ca.Function("step", [state], [ca.vertcat(*after.pack())])
+        last = step.mapaccum(round(60 / H))(ca.vertcat(*LongPush.start(FIRST**2).pack()))
+        left = float(last[3, -1]) / FIRST**2
+        if level:
+            assert left > 0.7
+        else:
+            assert left == pytest.approx(np.exp(-12.0), rel=0.05)
+
+
+def on_its_way(seed: int) -> tuple[Rotation, Recording]:
+    """Two minutes of a car that is on a winding road at 12 m/s from the first sample on, its gyro
+    off by 0.3 deg/s RMS: the attitudes, and the samples.
+    """
+    rng = np.random.default_rng([31, seed])
+    t = H * np.arange(-1, round(120 / H))
+    turn = sum(0.08 * np.sin(2 * np.pi * (t / time + rng.random())) for time in (6.0, 11.0, 19.0))
+    speed = 12 + sum(2 * np.sin(2 * np.pi * (t / time + rng.random())) for time in (9.0, 23.0))
+    yaw = np.cumsum(turn) * H
+    velocity = speed[:, None] * np.column_stack([np.cos(yaw), np.sin(yaw), 0 * t])
+    axes = Rotation.from_euler("ZYX", np.column_stack([yaw, 0 * t + 0.03, 0 * t - 0.02]))
+    log = recorded(axes, np.gradient(velocity, H, axis=0), seed)
+    bias = np.radians(0.3) * rng.standard_normal(3)
+    return axes[1:], replace(log, gyro=log.gyro + bias)
+
+
+def test_a_log_that_begins_on_a_winding_road_is_level_after_half_a_minute():
+    """Its forces make a mean square of tilt; behind a gyro half a minute of them leave less than a
+    third, and it goes on to be known as well as claimed.
+    """
+    off, claimed, pushed = [], [], []
+    for seed in range(4):
+        truth, log = on_its_way(seed)
+        result = run(log)
+        late = log.time > 30
+        vertical = [
+            q.inv().apply([0, 0, 1])
+            for q in (truth, Rotation.from_quat(result.q, scalar_first=True))
+        ]
+        off.append(np.sum((vertical[0] - vertical[1])[late] ** 2, axis=1))
+        claimed.append(2 * result.tilt_std[late] ** 2)
+        pushed.append(np.sum((log.accel / GRAVITY - vertical[0])[late] ** 2, axis=1))
+    assert np.mean(off) < np.mean(pushed) / 9
+    assert np.mean(np.array(off) / claimed) < 1.3
 
 
 def test_a_body_whose_tilt_is_not_known_may_move():

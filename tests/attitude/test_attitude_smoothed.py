@@ -230,7 +230,8 @@ def test_turn_that_no_gyro_saw_is_not_carried_into_the_time_before_it():
     gyro, accel, _ = measured(world, np.random.default_rng(4), np.zeros(3))
     gyro[jump] = measured(seen, np.random.default_rng(4), np.zeros(3))[0][jump]
     log = Recording.from_arrays(time=H * np.arange(n), gyro=gyro, accel=accel)
-    found = attitude.run(log, part(), smooth=True)
+    q0 = world.attitude[0].as_quat(scalar_first=True)
+    found = attitude.run(log, part(), q0=q0, smooth=True)
     assert (found.status[jump : jump + 100] & 8).any()
     up = world.attitude.inv().apply([0, 0, 1])
     tilt = np.linalg.norm(np.cross(error(found.q, world.attitude), up), axis=1)

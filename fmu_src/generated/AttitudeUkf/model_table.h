@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{1a33cd1f-228a-3ce4-9aa7-b668c2136a2e}"
-#define MODEL_TOKEN_FMI3 "{8bbfcbec-de85-f6f7-d058-8bc73c30917c}"
+#define MODEL_TOKEN_FMI2 "{ee6a1bf0-c4d7-8f01-b192-b4593f3b6a07}"
+#define MODEL_TOKEN_FMI3 "{3c0fc54d-a8b3-30aa-efdf-d0b2772e6a92}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -17,20 +17,20 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 63,
     N_OUTPUTS = 21,
-    N_STATES = 357,
-    N_CONSTANTS = 110,
+    N_STATES = 358,
+    N_CONSTANTS = 112,
     N_NOISE = 0,
     N_VARIABLES = 104
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3116 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3124 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 766400 };
+enum { MODEL_MOST_SAMPLES = 764564 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -87,6 +87,10 @@ BESIDE = 0.02
 """s^2/m; by so much of a push that lasts the variance may be larger: half of it times gravity,
 which is not linear, is then a tenth of the push."""
 
+UPRIGHT = 0.88
+"""Share of gravity that the mean force has along a vertical that may be right: it is off it by half
+a radian then, which no push of a vehicle makes."""
+
 MOST_TILT = 0.3
 """rad; beyond it what is linear in the tilt is off by a twentieth."""
 
@@ -156,7 +160,7 @@ def inclination(
         valid, 1 - (1 - steady) * (1 - _is_mean_gravity(mean, size, tolerance, settings))
     )
     long = memory.motion.long
-    known = is_tilt_known(x, long)
+    known = is_tilt_known(x, memory, at)
     measured = _measured(sample.force, mean, steady, noise, white, long, settings, h)
     rests = body.rests * (1 - is_pushed(body.at_rest_force, x, settings, h))
     resting = rests * body.sure
@@ -231,13 +235,19 @@ def _is_off(force, x: Estimate, spread, settings: Settings, gate: float):
     return off > gate * (own + spread)
 
 
-def is_tilt_known(x: Estimate, long: LongPush):
+def is_tilt_known(x: Estimate, memory: Memory, at: Mapping[str, ca.SX]):
     """Whether the tilt is known well enough for the velocity to be linear in its error, 0 or 1.
 
-    Beside pushes that last what is not linear may be a share of them.
+    Beside pushes that last what is not linear may be a share of them; and of a body that was on its
+    way beside a velocity that changes much in its correlation time, unless the mean force says that
+    the vertical is quite another one, as of a body that is called upright and hangs upside down.
     """
-    beside = ca.fmin(BESIDE * ca.sqrt(long.variance), MOST_TILT**2)
-    return tilt_variance(x.covariance, vertical(x)) <= KNOWN_TILT**2 + beside
+    motion, up = memory.motion, vertical(x)
+    upright = ca.dot(up, memory.mean.force) > UPRIGHT * at["gravity"]
+    changes = upright * (1 - motion.long.is_excluded) * motion.across
+    changes *= reciprocal(at["motion_time"]) ** 2
+    beside = ca.fmin(BESIDE * ca.sqrt(motion.long.variance + changes), MOST_TILT**2)
+    return tilt_variance(x.covariance, up) <= KNOWN_TILT**2 + beside
 
 
 def _std_at_rest(at: Mapping[str, ca.SX]):

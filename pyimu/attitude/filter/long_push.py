@@ -32,34 +32,61 @@ RISE, FALL = 3.0, 40.0
 """Correlation times of a bounded velocity over which the variance is averaged, where it rises and
 where it falls: who turns now will turn again."""
 
+FIRST = 0.335
+"""m/s^2; of the pushes of a body whose tilt was not known at the start, as long as the run has not
+shown that they are smaller: a car on its way or a drone in the air has such. With 1 the tilt of a
+boat, whose bias is not known either, is off for longer. Chosen as ``velocity.ON_ITS_WAY``."""
+
+EXCLUDED = 0.01
+"""(m/s^2)^2; pushes that the run has not shown are none where they are less."""
+
 
 @dataclass(frozen=True)
 class LongPush:
-    """The mean ``force`` (2,) m/s^2 east and north, and the ``variance`` (m/s^2)^2 of an axis of
-    the pushes.
+    """The mean ``force`` (2,) m/s^2 east and north, and the variance (m/s^2)^2 of an axis of the
+    pushes: what the run has ``shown`` of it, and what it has not excluded (``first``).
     """
 
     force: ca.SX
-    variance: ca.SX
+    shown: ca.SX
+    first: ca.SX
 
     @classmethod
-    def start(cls) -> LongPush:
-        return cls(ca.SX.zeros(2), ca.SX(0))
+    def start(cls, first: ca.SX | float = 0.0) -> LongPush:
+        return cls(ca.SX.zeros(2), ca.SX(0), ca.SX(first))
 
     def pack(self) -> tuple:
         return tuple(vars(self).values())
+
+    @property
+    def variance(self):
+        """(m/s^2)^2; of an axis of the pushes."""
+        return ca.fmax(self.shown, self.first)
+
+    @property
+    def is_excluded(self):
+        """Whether there are no pushes but those that the run has shown, 0 or 1."""
+        return self.first <= EXCLUDED
+
+    @property
+    def is_open(self):
+        """Whether the body may be pushed as none was yet, 0 or 1."""
+        return self.first > LEAST**2
 
     def density(self, time):
         """(m/s^2)^2 s at low frequency, with the correlation ``time`` s of a bounded velocity."""
         return 2 * LASTS * time * self.variance
 
 
-SIZES = (2, 1)
+SIZES = (2, 1, 1)
 """Of what ``LongPush.pack`` gives."""
 
 
 def followed(before: LongPush, level, own, across, time, span) -> LongPush:
     """The same after one more look.
+
+    What is not excluded of pushes that were not seen falls to what the force shows by its size,
+    tilt and all: where it is larger than they are, it says nothing against them.
 
     ``level`` (2,) m/s^2 is the mean force east and north by the estimate over a ``span`` in s,
     ``own`` (m/s^2)^2 the variance that its tilt makes of an axis, ``across`` (m/s)^2 that of the
@@ -70,5 +97,8 @@ def followed(before: LongPush, level, own, across, time, span) -> LongPush:
     bounded = EXCEEDS * (own + across / whole**2) + LEAST**2
     found = ca.fmax(ca.sumsqr(force) / 2 - bounded, 0)
     rises, falls = (span * reciprocal(t * time + span) for t in (RISE, FALL))
-    gain = ca.if_else(found > before.variance, rises, falls)
-    return LongPush(force, before.variance + gain * (found - before.variance))
+    gain = ca.if_else(found > before.shown, rises, falls)
+    shown = before.shown + gain * (found - before.shown)
+    seen = ca.fmin(EXCEEDS * ca.sumsqr(force) / 2, before.first)
+    first = before.first + span * reciprocal(whole) * (seen - before.first)
+    return LongPush(force, shown, first)

@@ -23,7 +23,7 @@ from pyimu.attitude.filter.variables import (
     LEAST_N,
     OWN_PARAMETERS,
 )
-from pyimu.attitude.filter.velocity import SIZES, Motion, first_std
+from pyimu.attitude.filter.velocity import SIZES, Motion, first_push, first_std
 from pyimu.model.signals import SIGNALS
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import pack, unpack
@@ -192,7 +192,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         QuasiStatic(at["gravity"], ca.fmax(passing_std(at), LEAST_ACCEL_STD) ** 2),
         GravitySize(at["gravity"], ca.SX(0), ca.SX(0)),
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
-        Motion.start(first_std(at), at["motion_time"]),
+        Motion.start(first_std(at), at["motion_time"], first_push(at)),
         Stillness.start(),
         Drift.start(),
         safe=ca.SX.zeros(6),

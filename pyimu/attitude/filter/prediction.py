@@ -406,7 +406,7 @@ def predicted(at: Instant, sample: Sample, rest: Rest, x: Estimate, turned, nois
     axes to new, ``noise`` that of ``added_noise``.
     """
     scalar, kept = at.settings.scalar, at.memory
-    known = is_tilt_known(x, kept.motion.long)
+    known = is_tilt_known(x, kept, scalar)
     speed = at.has_speed * known
     speed_for = ca.if_else(speed, 0, kept.speed_for + at.h)
     driven = at.driven(speed_for)

@@ -44,6 +44,13 @@ UNLEVELLED, MOST_AT_FIRST = 0.3, 0.3
 """s, m/s; a body whose tilt is not known is in motion, as one that is held or flies, with a
 velocity of so many seconds of the force that tilts it, and at most of this."""
 
+ON_ITS_WAY, FASTEST_AT_FIRST = (0.1, 0.19), 3.0
+"""rad, m/s; a body whose tilt is known to no more than the second of these angles may be on its
+way, as one that drives or flies, with so large a velocity; not where it is known to the first. With
+less, what pushes a drone or a car is taken for tilt and bias of the gyro within seconds; a hand
+shows soon that it has a tenth of it. Chosen on three starts in motion of each of 14 bodies (hands,
+arms, drones, cars, boats) by a generator of their own."""
+
 WINDOW, RISE = 8.0, 7.0
 """Correlation times of the velocity over which its variance is estimated, where it falls and where
 it rises: the mean of so many squares is off by half of itself. With a rise that is much faster than
@@ -135,13 +142,13 @@ class Motion:
     gathered: Gathered
 
     @classmethod
-    def start(cls, std, time) -> Motion:
+    def start(cls, std, time, pushed: ca.SX | float = 0.0) -> Motion:
         """That before the first sample: a velocity of the standard deviation ``std`` m/s and the
-        correlation ``time`` s.
+        correlation ``time`` s; ``pushed`` (m/s^2)^2 is the variance of pushes that last.
         """
         first = std**2
         none = ca.SX.zeros(2), ca.SX(0), ca.SX(0), ca.SX(0)
-        parts = SlowMotion.start(first, time), LongPush.start(), Gathered.start()
+        parts = SlowMotion.start(first, time), LongPush.start(pushed), Gathered.start()
         return cls(first, first, *none, *parts)
 
     def pack(self, kept: Callable = lambda value: value) -> ca.SX:
@@ -249,7 +256,24 @@ def first_std(at: Mapping[str, ca.SX]):
     Zero where they say that it never accelerates, larger where no rest has shown the tilt.
     """
     least = ca.fmax(FIRST_STD, MOST_AT_FIRST * unlevelled(at))
+    least = ca.fmax(least, FASTEST_AT_FIRST * on_its_way(at))
     return ca.fmax(at["accel_std"] * at["motion_time"], least) * (at["accel_std"] > 0)
+
+
+def first_push(at: Mapping[str, ca.SX]):
+    """Variance [(m/s^2)^2] of the pushes that last before the first sample, by the settings ``at``.
+
+    Zero where they say that it never accelerates, and where a rest has shown the tilt.
+    """
+    return long_push.FIRST**2 * on_its_way(at) * (at["accel_std"] > 0)
+
+
+def on_its_way(at: Mapping[str, ca.SX]):
+    """Whether the body may be on its way before the first sample, by the settings ``at``: 0 to 1 by
+    how little is known of the tilt.
+    """
+    least, most = ON_ITS_WAY
+    return ca.fmin(ca.fmax(_first_tilt_std(at) - least, 0) * (1 / (most - least)), 1)
 
 
 def unlevelled(at: Mapping[str, ca.SX]):
@@ -310,7 +334,7 @@ def with_sample(
     )
     seen = ca.vertcat(motion.across, motion.along)
     variance = moves * ca.fmax(seen, squares * (1 / OUTLIER))
-    long = LongPush(may * motion.long.force, motion.long.variance)
+    long = replace(motion.long, force=may * motion.long.force, first=may * motion.long.first)
     slow, by_scale = goes_on * motion.slow, goes_on * motion.by_scale
     after = replace(motion, slow=slow, by_scale=by_scale, long=long, gathered=gathered)
     return after, Bounded(variance, motion.slowly.share)
@@ -326,20 +350,23 @@ def followed(motion: Motion, x: Estimate, moves, bounds: Bounds, tilted, h) -> M
     white (section III there): their mean over ``SLOW`` times T has half their density over that,
     the density 2 T s^2 of the velocity and P h of the filter's own variance. What it has beyond
     ``DRIFTS`` times that, and times what the gyro's scale factors may make of it, and ``SLIGHT``,
-    is a walk: accelerations that last. What a tilt by these scale factors makes of it is compared
-    with all of it but the bounded one's. ``moves`` 0 or 1 says whether the body moves at all,
-    ``tilted`` (m/s^2)^2 is the variance that its tilt makes of the force on a level axis.
+    is a walk: accelerations that last. While the body may be pushed as none was yet
+    (``LongPush.is_open``), its velocity walks so freely that it shows none of this. What a tilt by
+    these scale factors makes of it is compared with all of it but the bounded one's. ``moves`` 0 or
+    1 says whether the body moves at all, ``tilted`` (m/s^2)^2 is the variance that its tilt makes
+    of the force on a level axis.
     """
     time, gathered = bounds.time, motion.gathered
     level, squares, own, force = gathered.means()
     span = gathered.span
     least = bounds.least / 2 * reciprocal(time + h)
+    shows = 1 - motion.long.is_open
     window = ca.fmin(motion.known + FIRST_TIME, WINDOW)
-    known = ca.fmin(motion.known + span * reciprocal(time + span), WINDOW)
+    known = ca.fmin(motion.known + shows * span * reciprocal(time + span), WINDOW)
 
     def mean(before, found, fall, rise):
         gain = ca.if_else(found > before, span / (rise * time + span), span / (fall * time + span))
-        return before + gain * (found - before)
+        return before + shows * gain * (found - before)
 
     across, along = (
         moves * ca.fmax(mean(before, squares[i], window, RISE), least)
