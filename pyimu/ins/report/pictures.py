@@ -39,6 +39,10 @@ INSIDE = float(np.sqrt(chi2.ppf(0.95, 2)))
 LONGEST = 2000
 """Points of a drawn path, at most."""
 
+TALLEST, AROUND, BESIDE = 5.4, 0.9, 0.7
+"""Inches: of the picture of a path at most, and of what stands above and below the path, and beside
+it."""
+
 ROOM = 4.0
 """A path that leaves the reference's, or the smoothed one's, extent by more times its size would
 press that flat: the picture ends there."""
@@ -55,9 +59,10 @@ def drawn(rows: int, height: float, draw: Callable[[list[Axes]], None], a: Outco
 
 def path_picture(a: Outcome) -> str:
     with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(WIDTH, 5.4), layout="constrained")
+        figure = Figure(figsize=(WIDTH, TALLEST), layout="constrained")
         panel = figure.subplots()
         draw_path(a, panel)
+        figure.set_figheight(_height(panel))
         legend(figure, panel, 5)
         return svg_of(figure, curves=True)
 
@@ -79,6 +84,12 @@ def draw_path(a: Outcome, panel: Axes) -> None:
     _frame(a, panel)
     panel.set_xlabel("east [m]")
     panel.set_ylabel("north [m]")
+
+
+def _height(panel: Axes) -> float:
+    """Of a picture without an empty band above a path that is longer than wide."""
+    across, along = np.ptp(panel.get_ylim()), np.ptp(panel.get_xlim())
+    return min(TALLEST, AROUND + (WIDTH - BESIDE) * across / along)
 
 
 def _frame(a: Outcome, panel: Axes) -> None:
