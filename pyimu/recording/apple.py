@@ -7,9 +7,6 @@ way round: see ``pyimu.recording.formats.whole_force``.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import islice
-
 import numpy as np
 
 from pyimu.recording.column_map import ForeignMap
@@ -17,11 +14,10 @@ from pyimu.recording.columns import XYZ
 from pyimu.recording.counts import Scale
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.whole_force import FORCE, WholeForceReader
-from pyimu.recording.guess.numbers import time_unit
 from pyimu.recording.naming.name import named
 from pyimu.recording.naming.triads import surest, triads, vectors
 from pyimu.recording.naming.words import TRUTHS
-from pyimu.recording.vectors import triad_map, unnamed
+from pyimu.recording.vectors import time_line, triad_map, unnamed
 from pyimu.units import parse
 
 Three = tuple[int, int, int]
@@ -77,7 +73,7 @@ def core_motion(reader: Reader) -> ForeignMap | None:
     cells = unnamed_oxiod(reader)
     if cells is not None:
         columns |= triad_map(cells[4:7], "gyro", "rad/s") | triad_map(cells[13:16], "mag", "uT")
-        return ForeignMap(columns=_time(reader, cells[:1]) | columns)
+        return ForeignMap(columns=time_line(reader, cells[:1]) | columns)
     found = triads(reader.header)
     for group, unit in (("gyro", "rad/s"), ("mag", "uT")):
         triad, _ = surest(found, group)
@@ -86,7 +82,7 @@ def core_motion(reader: Reader) -> ForeignMap | None:
             columns |= triad_map(vector, group, triad.unit or unit)
     times = [n for n in map(named, reader.header) if n.is_time and not set(n.words) & TRUTHS]
     times.sort(key=lambda name: "motion" not in name.words)
-    return ForeignMap(columns=_time(reader, [name.cell for name in times]) | columns)
+    return ForeignMap(columns=time_line(reader, [name.cell for name in times]) | columns)
 
 
 def unnamed_oxiod(reader: Reader) -> list[str] | None:
@@ -94,19 +90,6 @@ def unnamed_oxiod(reader: Reader) -> list[str] | None:
     word, width, *_ = OXIOD
     own = reader.reader if isinstance(reader, WholeForceReader) else reader
     return unnamed(own, word, width)
-
-
-def _time(reader: Reader, cells: Sequence[str]) -> dict[str, str]:
-    """The line of the first of the ``cells`` that is a time of a known unit; empty without one."""
-    for cell in cells:
-        unit = "s" if cell in reader.clocks else named(cell).clock
-        at = reader.header.index(cell)
-        if unit is None and at in reader.numeric():
-            pieces = [c for (c,), _ in islice(reader.batches([at], at), 1)]
-            unit = time_unit(pieces[0]).unit if pieces else None
-        if unit is not None:
-            return {cell: f"time [{unit}]"}
-    return {}
 
 
 def sensor_log(reader: Reader) -> ForeignMap | None:

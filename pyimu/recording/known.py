@@ -24,6 +24,7 @@ from pyimu.recording.naming.triads import Triad, others, surest, triads
 from pyimu.recording.naming.words import TRUTHS
 from pyimu.recording.optical import optical_body
 from pyimu.recording.programs import PROGRAMS
+from pyimu.recording.surveys import SURVEYS
 from pyimu.recording.vectors import triad_map, unnamed
 from pyimu.recording.xsens import xsens
 from pyimu.units import FREEZING, same_dimension
@@ -259,6 +260,7 @@ FORMATS = (
     ("NCLT's inertial unit, by its description", _nclt_imu),
     ("NCLT's ground truth, by its description", _nclt_truth),
     ("KITTI's oxts, by its description", _oxts),
+    *SURVEYS,
     *PROGRAMS,
 )
 

@@ -17,7 +17,7 @@ from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.sections import EMPATICA
 from pyimu.recording.hyper_imu import hyper_imu
 from pyimu.recording.novatel import novatel
-from pyimu.recording.vectors import triad_map
+from pyimu.recording.vectors import time_line, triad_map
 from pyimu.units import parse
 
 GYROFLOW = ("GYROFLOW IMU LOG", "CAMERA IMU LOG")
@@ -142,13 +142,16 @@ def witmotion(reader: Reader) -> ForeignMap | None:
 
 def bag_text(reader: Reader) -> ForeignMap | None:
     """``imu.txt`` of the data sets of UZH (FPV, event cameras), which rpg's scripts write of bags:
-    s since 1970, rad/s, m/s^2.
+    s since 1970, rad/s, m/s^2. Others with these names count in ns or us: the numbers tell.
     """
     rate, force = ([f"{n}_{a}" for a in XYZ] for n in ("ang_vel", "lin_acc"))
     if not {"timestamp", *rate, *force} <= set(reader.header):
         return None
-    columns = {"timestamp": "time [s]"} | triad_map(rate, "gyro", "rad/s")
-    return ForeignMap(columns=columns | triad_map(force, "accel", "m/s^2"))
+    time = time_line(reader, ["timestamp"])
+    if not time:
+        return None
+    columns = time | triad_map(rate, "gyro", "rad/s") | triad_map(force, "accel", "m/s^2")
+    return ForeignMap(columns=columns)
 
 
 def ronin(reader: Reader) -> ForeignMap | None:

@@ -85,6 +85,11 @@ def attitudes(elements: Sequence[np.ndarray]) -> np.ndarray:
     return found
 
 
+def elements(header: Sequence[str]) -> set[int]:
+    """Positions of the columns that are elements of a rotation."""
+    return {k for k, cell in enumerate(header) if _ELEMENT.fullmatch(cell)}
+
+
 def with_attitude(reader: Reader) -> Reader:
     """``reader`` with the attitudes of the bodies of which it has all nine elements."""
     found: dict[str, dict[int, int]] = {}

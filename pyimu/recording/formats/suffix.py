@@ -29,7 +29,19 @@ from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.text import CsvReader
 from pyimu.recording.formats.ulog import UlogReader
 
-TEXTS = (".csv", ".txt", ".tsv", ".dat", ".asc", ".gcsv", ".sensors", ".lvm", ".vbo")
+TEXTS = (
+    ".csv",
+    ".txt",
+    ".tsv",
+    ".dat",
+    ".asc",
+    ".gcsv",
+    ".sensors",
+    ".lvm",
+    ".vbo",
+    ".imu",
+    ".nav",
+)
 """Suffixes of tables in text, each also with .gz behind it."""
 
 READERS: Mapping[str, Any] = MappingProxyType(

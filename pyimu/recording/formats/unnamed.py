@@ -29,6 +29,15 @@ POSE = (
 TRAJECTORY = ("timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw")
 """A line of TUM's format, whose numbers stand between blanks."""
 
+MATRIX = (
+    "timestamp",
+    *(c for r, a in enumerate("xyz") for c in (*(f"pose Rot[{3 * k + r}]" for k in range(3)), a)),
+)
+"""A time and the three rows of a rotation and a place, as of KAIST's ``global_pose.csv``."""
+
+ORTHOGONAL = 0.01
+"""By how much rows of a rotation of few digits may be off length one and right angles."""
+
 LENGTH = 0.02
 """By how much the length of a quaternion of few digits may be off one."""
 
@@ -41,6 +50,8 @@ def names_of(rows: Sequence[Sequence[str]], separator: str) -> tuple[str, ...]:
         return POSE
     if rows and separator == " " and all(map(_is_pose, rows)) and _rises(rows):
         return TRAJECTORY
+    if rows and all(map(_is_matrix, rows)) and _rises(rows):
+        return MATRIX
     if rows and all(map(is_wisdm, rows)):
         return WISDM
     if rows and separator == " " and all(map(is_pamap2, rows)) and _rises(rows):
@@ -60,6 +71,18 @@ def _is_message(row: Sequence[str], names: Sequence[str]) -> bool:
 def _is_pose(row: Sequence[str]) -> bool:
     numbers = [_number(cell) for cell in row]
     return len(row) == len(TRAJECTORY) and None not in numbers and _is_turn(row[4:])
+
+
+def _is_matrix(row: Sequence[str]) -> bool:
+    """Whether cells are a time and a rotation beside a place."""
+    numbers = [n for cell in row if (n := _number(cell)) is not None]
+    if len(row) != len(MATRIX) or len(numbers) < len(row):
+        return False
+    axes = [numbers[k : k + 3] for k in (1, 5, 9)]
+    off = [abs(hypot(*axis) - 1) for axis in axes]
+    pairs = ((axes[0], axes[1]), (axes[0], axes[2]), (axes[1], axes[2]))
+    off += [abs(sum(a * b for a, b in zip(*pair, strict=True))) for pair in pairs]
+    return max(off) < ORTHOGONAL
 
 
 def _is_turn(cells: Sequence[str]) -> bool:

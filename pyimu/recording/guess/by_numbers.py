@@ -7,12 +7,15 @@ from collections.abc import Container, Mapping, Sequence
 import numpy as np
 
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.guess.clock_column import rises
+from pyimu.recording.guess.clock_column import array_of, rises
 from pyimu.recording.guess.first_rows import Numbers
 from pyimu.recording.guess.guessed import Proposal
 from pyimu.recording.guess.numbers import force_unit, middle, rate_unit, resting_size
 from pyimu.recording.naming.name import Name, named
 from pyimu.recording.naming.triads import are_alike, others
+
+MOST = 40
+"""Columns without names among which sensors are looked for."""
 
 UNIT_LENGTH = 0.02
 """By how much the length of a quaternion of few digits may be off one."""
@@ -44,7 +47,10 @@ def by_numbers(
     time = {g.cell for g in found.guesses}
     at = [k for k in numbers.positions if reader.header[k] not in time and k not in away]
     names = [named(cell) for cell in reader.header]
-    if len(at) < 3 or len(at) > 40:
+    at = _of_one_length(reader, at, time)
+    if len(at) > MOST:
+        found.notes.append(f"{len(at)} columns are too many to be told by their numbers")
+    if not 3 <= len(at) <= MOST:
         return {"accel": None, "gyro": None}
     table = numbers.of(at).reshape(-1, len(at))
     column = {k: table[:, i] for i, k in enumerate(at)}
@@ -69,20 +75,68 @@ def by_numbers(
     if not like:
         _without_sign(found, reader, values)
         return {"accel": None, "gyro": None}
-    home = {_array(cell) for cell in time}
-    accel = min(like, key=lambda r: (_array(reader.header[r[0]]) not in home, _scatter(values[r])))
-    home = {_array(reader.header[accel[0]])}
+    home = {array_of(cell) for cell in time}
+    like.sort(key=lambda r: (array_of(reader.header[r[0]]) not in home, _scatter(values[r])))
     apart = {k: i for i, k in enumerate(at)}
-    rest = [run for run in values if not set(run) & set(accel)]
-    rest = [run for run in rest if abs(apart[run[0]] - apart[accel[0]]) % 3 == 0]
-    rest.sort(key=lambda run: _array(reader.header[run[0]]) not in home)
-    turning = [r for r in rest if rate_unit(values[r], values[accel], period).unit is not None]
-    gyro = next(iter(turning or rest), None)
+    accel, gyro = _belonging(reader, values, like, apart, period)
+    _others(found, reader, like, accel)
     picked: dict[str, Picked] = {"accel": [(k, names[k]) for k in accel], "gyro": None}
     if gyro is not None:
         picked["gyro"] = [(k, names[k]) for k in gyro]
     found.notes.append("accelerometer and gyro were told by their numbers alone: look at them")
     return picked
+
+
+def _of_one_length(reader: Reader, at: list[int], time: Container[str]) -> list[int]:
+    """The positions ``at`` of columns as long as the time is, or else as the longest."""
+    if not reader.crowded or not at:
+        return at
+    rows = {k: reader.count(k) or 0 for k in at}
+    own = [reader.count(k) or 0 for k, cell in enumerate(reader.header) if cell in time]
+    return [k for k in at if rows[k] == max(own or rows.values())]
+
+
+def _belonging(
+    reader: Reader,
+    values: Mapping[tuple[int, ...], np.ndarray],
+    like: Sequence[tuple[int, ...]],
+    apart: Mapping[int, int],
+    period: float | None,
+) -> tuple[tuple[int, ...], tuple[int, ...] | None]:
+    """The accelerometer among those ``like`` one, best first, and the gyro that turns its gravity.
+
+    Where none is seen to, the gyro is the first vector that is like no force, and of several forces
+    the one nearest before it is the accelerometer: a table of several units has each by itself.
+    """
+    several = []
+    for accel in like:
+        home = {array_of(reader.header[accel[0]])}
+        rest = [run for run in values if not set(run) & set(accel)]
+        rest = [run for run in rest if abs(apart[run[0]] - apart[accel[0]]) % 3 == 0]
+        rest.sort(key=lambda run: array_of(reader.header[run[0]]) not in home)
+        guesses = {run: rate_unit(values[run], values[accel], period) for run in rest}
+        for run, guess in guesses.items():
+            if guess.unit is not None and "gravity" in guess.why:
+                return accel, run
+        rest = [run for run in rest if run not in like]
+        if rest:
+            fast = (run for run in rest if guesses[run].unit is not None)
+            several.append((accel, next(fast, rest[0])))
+    if not several:
+        return like[0], None
+    return min(several, key=lambda pair: abs(apart[pair[0][0]] - apart[pair[1][0]]))
+
+
+def _others(
+    found: Proposal, reader: Reader, like: Sequence[tuple[int, ...]], accel: tuple[int, ...]
+) -> None:
+    """Note the vectors that are an accelerometer by their numbers as well."""
+    named_ones = set(accel)
+    for run in sorted(like):
+        if not set(run) & named_ones:
+            named_ones |= set(run)
+            cells = ", ".join(reader.header[k] for k in run)
+            found.notes.append(f"{cells} may be the accel, too")
 
 
 def _without_sign(
@@ -94,11 +148,6 @@ def _without_sign(
             cells = ", ".join(reader.header[k] for k in run)
             found.notes.append(f"{cells} may be the accel: {force_unit(vector).why}")
             return
-
-
-def _array(cell: str) -> str:
-    """The array of a file of arrays whose column a ``cell`` is; of a table's it is none."""
-    return cell.rpartition("[")[0]
 
 
 def _directions(
@@ -142,11 +191,14 @@ def _unit_fours(found: Proposal, reader: Reader, column: Mapping[int, np.ndarray
         if set(four) <= column.keys() and not set(four) & away:
             if _is_quaternion(np.column_stack([column[i] for i in four])):
                 away |= set(four)
-                cells = ", ".join(reader.header[i] for i in four)
+                cells = [reader.header[i] for i in four]
                 found.notes.append(
-                    f"{cells} are left out: their squares add up to 1, as those of an attitude do "
-                    "(ref_q_w, ref_q_x, ref_q_y, ref_q_z)"
+                    f"{', '.join(cells)} are left out: their squares add up to 1, as those of an "
+                    "attitude do (ref_q_w, ref_q_x, ref_q_y, ref_q_z)"
                 )
+                for where, axes in (("first", "wxyz"), ("last, as of ROS", "xyzw")):
+                    lines = (f'"{c}" = "ref_q_{a} [1]"' for c, a in zip(cells, axes, strict=True))
+                    found.notes.append(f"with the scalar {where}: {', '.join(lines)}")
     return away
 
 

@@ -12,7 +12,7 @@ from pyimu.recording.guess.first_rows import Numbers
 from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.numbers import SECONDS, STATED, UnitGuess, time_unit
 from pyimu.recording.naming.name import Name, named
-from pyimu.recording.naming.words import COUNTERS, PERIODS, TIMES, TRUTHS
+from pyimu.recording.naming.words import COUNTERS, INERTIAL, NUMBERS, PERIODS, TIMES, TRUTHS
 
 CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
 """Of a column of them."""
@@ -27,14 +27,12 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
     clocks = {k for k, cell in enumerate(reader.header) if cell in reader.clocks}
     at = [k for k in numbers.positions if names[k].is_time and not set(names[k].words) & TRUTHS]
     at = at or sorted(clocks)
-    if not at:
-        at = [k for k in numbers.positions[:2] if rises(numbers.of([k]))]
-        at = at or [k for k in numbers.positions[-1:] if _is_even(numbers.of([k]))]
+    at = at or _rising(reader, numbers)
     candidates: list[tuple[int, np.ndarray, UnitGuess]] = []
     disordered: list[tuple[int, np.ndarray, UnitGuess]] = []
     for k in at:
         values = Unwrapped(*SECONDS.values()).add(numbers.of([k]))
-        if not names[k].is_time and _counts_rows(values):
+        if not names[k].is_time and (NUMBERS & set(names[k].words) or _counts_rows(values)):
             found.notes.append(f"{reader.header[k]} counts the rows, and is no time")
         elif rises(values) or (names[k].is_time or k in clocks) and _mean_rate(values) is not None:
             guess = CLOCK if k in clocks else _time_guess(names[k], values)
@@ -51,6 +49,7 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
         candidates,
         key=lambda c: (
             c[2].unit is None,
+            reader.crowded and not INERTIAL & set(names[c[0]].words),
             bool(COUNTERS & set(names[c[0]].words)),
             _unevenness(c[1]),
             "stamp" not in names[c[0]].words,
@@ -67,6 +66,22 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
     else:
         period = _period(values) * one
     return period if 1e-6 <= period <= 1e3 else None
+
+
+def _rising(reader: Reader, numbers: Numbers) -> list[int]:
+    """Positions of columns that no name calls a time and that rise as one: among the first two, or
+    the last of a table, or of each array in a file of several.
+    """
+    first = [k for k in numbers.positions[:2] if rises(numbers.of([k]))]
+    if first:
+        return first
+    ends = {array_of(reader.header[k]): k for k in numbers.positions} if reader.crowded else {}
+    return [k for k in ends.values() or numbers.positions[-1:] if _is_even(numbers.of([k]))]
+
+
+def array_of(cell: str) -> str:
+    """The array of a file of arrays whose column a ``cell`` is; of a table's it is none."""
+    return cell.rpartition("[")[0]
 
 
 def _by_periods(found: Proposal, reader: Reader, numbers: Numbers) -> float | None:

@@ -15,6 +15,7 @@ import numpy as np
 from pyimu.recording.columns import XYZ
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.by_numbers import Picked, by_numbers
+from pyimu.recording.guess.clock_column import array_of
 from pyimu.recording.guess.first_rows import Numbers, PerSecond
 from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.numbers import UnitGuess, force_unit, rate_unit
@@ -25,6 +26,9 @@ SAID = "increments from row to row"
 
 OVER_TIME = {"gyro": "rad", "accel": "m/s"}
 """What the increments are of."""
+
+SIX = 6
+"""Columns that a table of increments has at least."""
 
 UNNAMED = "column "
 """How the columns of a table without names are called."""
@@ -38,10 +42,17 @@ def add_increments(
     away: Container[int],
 ) -> None:
     """Add the increments that the numbers of a table without names show, of a sample ``period``
-    [s]; none of those ``away``.
+    [s]; none of those ``away``. In a file of arrays the one with the time is such a table.
     """
-    if period is None or not all(cell.startswith(UNNAMED) for cell in reader.header):
+    if period is None:
         return
+    if not all(cell.startswith(UNNAMED) for cell in reader.header):
+        home = {array_of(g.cell) for g in found.guesses if g.target == "time"} - {""}
+        away = {
+            k for k, cell in enumerate(reader.header) if array_of(cell) not in home or k in away
+        }
+        if len(away) > len(reader.header) - SIX:
+            return
     rates = PerSecond(numbers, 1 / period)
     scratch = replace(found, guesses=list(found.guesses), notes=[])
     picked = by_numbers(scratch, reader, rates, period, away)

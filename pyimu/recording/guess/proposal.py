@@ -9,6 +9,7 @@ import numpy as np
 from pyimu.numerics.columns import columns_at
 from pyimu.recording.columns import GROUP_OF, XYZ, own_name
 from pyimu.recording.counter import Unwrapped
+from pyimu.recording.formats.matrix_attitude import elements
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.angles import angle_of_rate
 from pyimu.recording.guess.by_numbers import Picked, by_numbers, missing
@@ -94,7 +95,7 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
         place = spots(reader.header) if len(attitudes) == 1 else {}
         away = {k for at in attitudes for k in at.values()} | set(angles(reader.header).values())
         place = {} if away & set(place.values()) else place
-        away |= set(place.values())
+        away |= set(place.values()) | elements(reader.header)
         if not question(reader):
             _by_numbers(found, reader, numbers, period, away, picked)
     stepped = {"gyro", "accel"} & set(found.groups)

@@ -50,6 +50,9 @@ COUNTERS = {"tick", "ticks", "counter", "count"}
 """Words beside those of times for one that counts in a unit of its own, such as DJI's
 ``Clock:Tick#``."""
 
+NUMBERS = {"packet", "number", "index", "sequence", "seq", "frame", "sample", "row", "counter"}
+"""Words for what numbers rows, samples or packets: no time, however it rises."""
+
 CLOCKS = ("s", "ms", "us", "ns", "min", "h", "day")
 """Units of times."""
 

@@ -1,0 +1,164 @@
+"""Layouts of public data sets, in short pieces with numbers of our own: what had been taken for a
+gyro or a time and is none, refused, or left to the reader.
+"""
+
+import numpy as np
+import pytest
+from scipy.io import savemat
+from scipy.spatial.transform import Rotation
+from turned_logs import G, H, N, agrees, by_its_map, rows, turned, written
+
+from pyimu import inspect, read_recording
+from pyimu.recording.log import read_reference
+
+FRD = np.array([1.0, -1.0, -1.0])
+
+
+@pytest.fixture(scope="module")
+def log():
+    return turned()
+
+
+def _attitude(time):
+    """Roll, pitch and yaw (n, 3) rad of a body, yaw first, in east-north-up."""
+    return np.column_stack([0.3 * np.sin(time), 0.2 * np.sin(1.3 * time), 0.5 * time])
+
+
+# Several units in one table
+
+
+def test_another_accelerometer_is_no_gyro(log, tmp_path):
+    """As of mHealth, without names and times: chest, ankle (with a gyro) and arm."""
+    time, gyro, force = log
+    zeros = np.zeros((N, 2))
+    columns = [force[:, [2, 0, 1]], zeros, force, np.degrees(gyro), 30 * force / G]
+    path = written(tmp_path / "subject1.log", rows(*columns, by="\t"))
+    found = inspect(path).proposals[0]
+    cells = {g.target: g.cell for g in found.guesses}
+    assert [cells[f"accel_{a}"] for a in "xyz"] == [f"column {k}" for k in (6, 7, 8)]
+    assert [cells[f"gyro_{a}"] for a in "xyz"] == [f"column {k}" for k in (9, 10, 11)]
+    assert any("column 1, column 2, column 3 may be the accel, too" in n for n in found.notes)
+
+
+def test_too_many_columns_are_said_to_be(log, tmp_path):
+    """As of OPPORTUNITY, and of windows with a row each (UCI HAR, Sussex-Huawei)."""
+    window = log[2][:128, 0] + np.sin(np.arange(50))[:, None]
+    said = inspect(written(tmp_path / "total_acc_x.txt", rows(window, by=" "))).report()
+    assert "128 columns are too many to be told by their numbers" in said
+
+
+def test_a_packet_number_is_no_time(log, tmp_path):
+    """x-io's CalInertialAndMag: packets of other kinds are counted between, here two."""
+    names = [
+        f"{n} {a} ({u})" for n, u in (("Gyroscope", "deg/s"), ("Accelerometer", "g")) for a in "XYZ"
+    ]
+    table = rows(3 * np.arange(N), np.degrees(log[1]), log[2] / G)
+    path = written(
+        tmp_path / "CalInertialAndMag.csv", [",".join(["Packet number", *names]), *table]
+    )
+    assert "time" not in inspect(path).proposals[0].groups
+    found = by_its_map(path, tmp_path, rate=100)
+    np.testing.assert_allclose(found.gyro, log[1], atol=1e-6)
+
+
+# Files of arrays
+
+
+def test_arrays_of_other_lengths_are_no_samples(log, tmp_path):
+    """NaveGo's structure of an inertial unit: the first attitude and its noise beside it."""
+    beside = {"ini_align": np.zeros((1, 3)), "arw": np.full((1, 3), 1e-4), "freq": 100.0}
+    unit = {"t": log[0][:, None], "fb": log[2] * FRD, "wb": log[1] * FRD} | beside
+    savemat(tmp_path / "imu.mat", {"imu1": unit})
+    found = by_its_map(tmp_path / "imu.mat", tmp_path)
+    np.testing.assert_allclose(found.gyro, log[1] * FRD, atol=1e-12)
+    np.testing.assert_allclose(found.accel, log[2] * FRD, atol=1e-12)
+
+
+def test_increments_in_an_array_with_its_time_last(log, tmp_path):
+    """PSINS: angles, velocities and the time at the end of the step, beside a solution."""
+    solution = np.column_stack([_attitude(log[0]), np.zeros((N, 6)), log[0]])
+    imu = np.column_stack([log[1] * H, log[2] * H, log[0] + H])
+    savemat(tmp_path / "trj.mat", {"trj": {"avp": solution, "imu": imu, "avp0": solution[0]}})
+    agrees(by_its_map(tmp_path / "trj.mat", tmp_path), log)
+
+
+# Clocks
+
+
+@pytest.mark.parametrize("ticks", [1, 10**6, 10**9])
+def test_the_clock_of_a_bag_s_text_is_told_by_its_date(ticks, log, tmp_path):
+    names = [f"{n}_{a}" for n in ("ang_vel", "lin_acc") for a in "xyz"]
+    stamps = [f"{(1_540_820_000 + t) * ticks:.{6 if ticks == 1 else 0}f}" for t in log[0]]
+    head = "# " + ",".join(["timestamp", *names])
+    agrees(read_recording(written(tmp_path / "imu.csv", [head, *rows(stamps, *log[1:])])), log)
+
+
+# Vehicles' and pedestrians' tables without names
+
+
+def test_the_xsens_unit_of_cars(log, tmp_path):
+    """KAIST's complex urban data set, MulRan, HeLiPR."""
+    stamps = [f"{1_560_000_000 * 10**9 + round(1e9 * t)}" for t in log[0]]
+    own = np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (N, 1))
+    path = written(tmp_path / "xsens_imu.csv", rows(stamps, own, *log[1:], np.ones((N, 3))))
+    agrees(read_recording(path), log)
+
+
+def _turns(found, angles, atol=1e-6):
+    """That the attitude is the one of roll, pitch and yaw."""
+    truth = Rotation.from_euler("xyz", angles)
+    off = truth.inv() * Rotation.from_quat(found.ref_q, scalar_first=True)
+    assert np.max(off.magnitude()) < atol
+
+
+def test_rows_of_a_rotation_and_a_place(tmp_path):
+    """KAIST's and MulRan's global_pose.csv."""
+    time = H * np.arange(200)
+    angles, place = _attitude(time), np.outer(time, [1.0, 2.0, 0.1])
+    pose = np.dstack([Rotation.from_euler("xyz", angles).as_matrix(), place]).reshape(-1, 12)
+    stamps = [f"{1_560_000_000 * 10**9 + round(1e9 * t)}" for t in time]
+    path = written(tmp_path / "global_pose.csv", rows(stamps, pose))
+    found = inspect(path)
+    assert not any("Rot" in note for note in found.proposals[0].notes)
+    (tmp_path / "map.toml").write_text(found.column_map)
+    found = read_reference(path, tmp_path / "map.toml")
+    _turns(found, angles)
+    np.testing.assert_allclose(found.ref_north, place[:, 1], atol=1e-6)
+
+
+@pytest.mark.parametrize("ticks", [1, 10**9])
+def test_oxiod_s_vicon(ticks, tmp_path):
+    """Seconds in ``syn``, ns since 1970 in ``raw``."""
+    time = H * np.arange(200)
+    angles, place = _attitude(time), np.outer(time, [1.0, 2.0, 0.1])
+    turns = Rotation.from_euler("xyz", angles).as_quat()
+    stamps = [f"{t}" if ticks == 1 else f"{1_500_000_000 * ticks + round(ticks * t)}" for t in time]
+    table = rows(stamps, np.arange(200), place, turns)
+    found = read_reference(written(tmp_path / "vi1.csv", table))
+    _turns(found, angles)
+    assert found.sample_rate == pytest.approx(100)
+    np.testing.assert_allclose(found.ref_up, place[:, 2], atol=1e-6)
+
+
+def test_attitudes_without_names_in_either_order(tmp_path):
+    """The lines for both stand in the map's remarks (ADVIO's pose.csv)."""
+    time = H * np.arange(200)
+    turns = Rotation.from_euler("xyz", _attitude(time)).as_quat(scalar_first=True)
+    table = rows(time, np.outer(time, [1.0, 2.0, 0.1]), turns)
+    said = inspect(written(tmp_path / "pose.csv", table)).column_map
+    assert 'with the scalar first: "column 5" = "ref_q_w [1]"' in said
+    assert 'with the scalar last, as of ROS: "column 5" = "ref_q_x [1]"' in said
+
+
+def test_kf_gins_s_navigation_result(tmp_path):
+    """Degrees, the body forward-right-down in north-east-down."""
+    time = H * np.arange(200)
+    angles, velocity = _attitude(time), np.outer(time, [1.0, 2.0, 0.1])
+    ned = np.column_stack([angles[:, 0], -angles[:, 1], np.pi / 2 - angles[:, 2]])
+    north = velocity[:, [1, 0, 2]] * [1, 1, -1]
+    place = np.tile([30.5, 114.4, 20.0], (200, 1))
+    table = rows([2017] * 200, 456300 + time, place, north, np.degrees(ned), by="  ")
+    found = read_reference(written(tmp_path / "truth.nav", table))
+    _turns(found, angles)
+    np.testing.assert_allclose(found.ref_velocity, velocity, atol=1e-6)
+    np.testing.assert_allclose(found.latitude, np.radians(30.5), atol=1e-9)
