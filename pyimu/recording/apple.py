@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from pyimu.errors import Finding
 from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.columns import XYZ
 from pyimu.recording.counts import Scale
@@ -68,7 +69,7 @@ def _parts(reader: Reader) -> tuple[Three, Three] | None:
 def core_motion(reader: Reader) -> ForeignMap | None:
     """A table of CMDeviceMotion, as MotionSense and OxIOD have it, with gravity apart."""
     if FORCE[0] not in reader.header:
-        return None
+        return _without_gravity(reader)
     columns = triad_map(FORCE, "accel", "g")
     cells = unnamed_oxiod(reader)
     if cells is not None:
@@ -80,9 +81,30 @@ def core_motion(reader: Reader) -> ForeignMap | None:
         if triad is not None and (triad.unit is not None or group == "gyro"):
             vector = [name.cell for name in triad.names]
             columns |= triad_map(vector, group, triad.unit or unit)
+    return ForeignMap(columns=time_line(reader, _times(reader)) | columns)
+
+
+def _times(reader: Reader) -> list[str]:
+    """The columns that are called times, those of Core Motion first."""
     times = [n for n in map(named, reader.header) if n.is_time and not set(n.words) & TRUTHS]
-    times.sort(key=lambda name: "motion" not in name.words)
-    return ForeignMap(columns=time_line(reader, [name.cell for name in times]) | columns)
+    return [n.cell for n in sorted(times, key=lambda name: "motion" not in name.words)]
+
+
+def _without_gravity(reader: Reader) -> ForeignMap | None:
+    """Such a table of which gravity was left out: the gyro's alone, for what is left of the force
+    is no accelerometer's.
+    """
+    found = triads(reader.header)
+    gyro, force = (surest(found, group)[0] for group in ("gyro", "accel"))
+    if gyro is None or force is None or any("gravity" in named(c).words for c in reader.header):
+        return None
+    words = (gyro.names[0].words[-2:], force.names[0].words[-2:])
+    if words != (("rotation", "rate"), ("user", "acceleration")):
+        return None
+    columns = triad_map([name.cell for name in gyro.names], "gyro", gyro.unit or "rad/s")
+    cells = ", ".join(name.cell for name in force.names)
+    note = Finding("no_gravity", "accel", 1, {"columns": cells})
+    return ForeignMap(columns=time_line(reader, _times(reader)) | columns, notes=(note,))
 
 
 def unnamed_oxiod(reader: Reader) -> list[str] | None:

@@ -74,7 +74,8 @@ def left_out(columns: Sequence[str], taken: Iterable[int], groups: Iterable[str]
     away, there = set(taken), set(groups)
     found = triads(columns)
     sure = (surest(found, group)[0] for group in ("gyro", "accel") if group not in there)
-    return [_left_out(columns, t.positions) for t in sure if t and not set(t.positions) & away]
+    told = [t for t in sure if t and "user" not in t.names[0].words]  # Apple's have no gravity
+    return [_left_out(columns, t.positions) for t in told if not set(t.positions) & away]
 
 
 def _left_out(columns: Sequence[str], at: Sequence[int]) -> Finding:

@@ -162,3 +162,20 @@ def test_kf_gins_s_navigation_result(tmp_path):
     _turns(found, angles)
     np.testing.assert_allclose(found.ref_velocity, velocity, atol=1e-6)
     np.testing.assert_allclose(found.latitude, np.radians(30.5), atol=1e-9)
+
+
+# Forces without gravity
+
+
+def test_a_phone_s_accelerations_without_gravity_are_no_force(log, tmp_path):
+    """Core Motion's, where the program that wrote the table left gravity out."""
+    names = [f"{n}.{a}" for n in ("rotationRate", "userAcceleration") for a in "xyz"]
+    moved = 0.1 * np.sin(np.outer(log[0], [1, 2, 3]))
+    path = written(
+        tmp_path / "sub_1.csv", [",".join(["timestamp", *names]), *rows(log[0], log[1], moved)]
+    )
+    found = read_recording(path)
+    np.testing.assert_allclose(found.gyro, log[1], atol=1e-6)
+    assert found.accel is None
+    kinds = {f.kind for f in found.findings}
+    assert "no_gravity" in kinds and "vector_left_out" not in kinds

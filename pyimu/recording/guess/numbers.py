@@ -203,6 +203,8 @@ def force_unit(force: np.ndarray) -> UnitGuess:
             return UnitGuess(unit, f"gravity is {size:.4g} then")
     if counts(force.ravel()) and size > 100:
         return _counts_a_g(size)
+    if not _has_gravity(force):
+        return UnitGuess(None, f"its size is {size:.4g} where it is quiet: without gravity")
     return UnitGuess(None, f"gravity is {size:.4g}, in no usual unit (does the log hold it?)")
 
 
