@@ -9,6 +9,8 @@ from scipy.spatial.transform import Rotation
 from turned_logs import G, H, N, agrees, by_its_map, rows, turned, written
 
 from pyimu import inspect, read_recording
+from pyimu.errors import UserError
+from pyimu.recording.formats.doubles import is_doubles
 from pyimu.recording.log import read_reference
 
 FRD = np.array([1.0, -1.0, -1.0])
@@ -80,6 +82,22 @@ def test_increments_in_an_array_with_its_time_last(log, tmp_path):
     imu = np.column_stack([log[1] * H, log[2] * H, log[0] + H])
     savemat(tmp_path / "trj.mat", {"trj": {"avp": solution, "imu": imu, "avp0": solution[0]}})
     agrees(by_its_map(tmp_path / "trj.mat", tmp_path), log)
+
+
+def test_increments_in_binary_rows(log, tmp_path):
+    """KF-GINS's .bin: seven numbers of eight bytes a row; other bytes are none."""
+    table = np.column_stack([456300 + log[0], log[1] * H, log[2] * H])
+    table.astype("<f8").tofile(tmp_path / "unit.bin")
+    agrees(by_its_map(tmp_path / "unit.bin", tmp_path), log)
+    (tmp_path / "other.bin").write_bytes(np.random.default_rng(1).bytes(56 * 40))
+    assert not is_doubles(tmp_path / "other.bin")
+
+
+def test_arrays_of_three_axes_are_named(tmp_path):
+    """DIP-IMU: frames, sensors and axes."""
+    np.savez(tmp_path / "own.npz", imu_acc=np.zeros((20, 17, 3)))
+    with pytest.raises(UserError, match=r"there is imu_acc \(3 axes\)"):
+        read_recording(tmp_path / "own.npz")
 
 
 # Clocks

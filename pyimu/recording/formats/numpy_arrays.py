@@ -89,11 +89,11 @@ class NpzReader(DatasetReader):
         with reading(path, "NPZ"), zipfile.ZipFile(path) as archive:
             shaped, left = _members(path, archive)
             columns = [c for name, (s, t) in shaped.items() for c in columns_of(name, s, _timed(t))]
+            left += [text for n, (s, t) in shaped.items() for text in skipped(n, s, _timed(t))]
             if not columns:
-                raise UserError(f"{path}: has no arrays of numbers{_left(left)}")
+                raise UserError(f"{path}: has no arrays with a row a sample{_left(left)}")
             single = {n: _array(path, archive, n, s) for n, s in shaped.items() if _is_single(s)}
             names = _names(path, archive, shaped, columns)
-        left += [text for n, (s, t) in shaped.items() for text in skipped(n, s, _timed(t))]
         units = {name: unit for name, (_, t) in shaped.items() if (unit := _unit(t))}
         named = [f"{c.name} [{units[c.array]}]" if c.array in units else c.name for c in columns]
         return cls(path, columns, left, stated_rate(single), names or named)

@@ -18,6 +18,7 @@ from pyimu.errors import UserError
 from pyimu.files import check_regular, exists, shortened, whole
 from pyimu.recording.formats.bag import BagReader
 from pyimu.recording.formats.dataflash import DataflashReader, is_dataflash
+from pyimu.recording.formats.doubles import DoublesReader, is_doubles
 from pyimu.recording.formats.hdf5 import Hdf5Reader
 from pyimu.recording.formats.json_rows import JsonReader
 from pyimu.recording.formats.layout import MESSAGES, NO_TOPICS
@@ -103,6 +104,8 @@ def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
     reader = BagReader if folder else _by_suffix(path, READERS, "rename text to .txt")
     if reader is DataflashReader and path.suffix.lower() == ".log" and not is_dataflash(path):
         reader = CsvReader
+    if reader is DataflashReader and is_doubles(path) and not is_dataflash(path):
+        reader = DoublesReader
     if reader in WITH_TOPICS:
         return reader.open(path, topics or {})
     if topics and reader is CsvReader and set(topics) == {"imu"}:
