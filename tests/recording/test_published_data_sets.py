@@ -42,6 +42,19 @@ def test_another_accelerometer_is_no_gyro(log, tmp_path):
     assert any("column 1, column 2, column 3 may be the accel, too" in n for n in found.notes)
 
 
+@pytest.mark.parametrize("later", [1000.0, -1000.0])
+def test_people_one_behind_the_other_are_not_one_log(later, log, tmp_path):
+    """WISDM's file of all: the phone of the second counts from elsewhere."""
+    half = N // 2
+    people = ["33"] * half + ["17"] * half
+    moved = 10_000 + log[0] + later * (np.arange(N) >= half)
+    stamps = [f"{round(1e9 * t)}" for t in moved]
+    table = [f"{row};" for row in rows(people, ["Jogging"] * N, stamps, log[2])]
+    found = read_recording(written(tmp_path / "raw.txt", table))
+    assert len(found) == half and np.ptp(found.time) == pytest.approx((half - 1) * H)
+    assert any(f.kind == "other_units" and f.count == half for f in found.findings)
+
+
 def test_too_many_columns_are_said_to_be(log, tmp_path):
     """As of OPPORTUNITY, and of windows with a row each (UCI HAR, Sussex-Huawei)."""
     window = log[2][:128, 0] + np.sin(np.arange(50))[:, None]

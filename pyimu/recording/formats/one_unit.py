@@ -8,15 +8,20 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pyimu.errors import Finding
+from pyimu.recording.formats.bodies import WISDM
 from pyimu.recording.formats.reader import Columns, Reader, ReaderOver
 from pyimu.recording.naming.name import named
+
+PERSON = "user"
+"""People come one behind the other, the second perhaps far behind the first rows."""
 
 NUMBERED: tuple[tuple[str, frozenset[str]], ...] = (
     ("I", frozenset(("TimeUS", "GyrX", "GyrY", "GyrZ", "AccX", "AccY", "AccZ"))),
     ("id", frozenset(("time_usec", "abs_pressure", "xgyro", "ygyro", "zgyro"))),
+    (PERSON, frozenset(WISDM)),
 )
-"""Columns that number the units in tables of ArduPilot's IMU and MAVLink's HIGHRES_IMU, and what is
-beside them there."""
+"""Columns that number the units in tables of ArduPilot's IMU and MAVLink's HIGHRES_IMU, and the
+people in WISDM's, each with a phone; and what is beside them there."""
 
 NUMBERS = tuple((word,) for word in ("id", "sensor", "imu", "device", "node", "unit", "instance"))
 """Last words of the names of columns that may number the units in any other table."""
@@ -79,7 +84,7 @@ def with_one_unit(reader: Reader) -> Reader:
     at = reader.header.index(told[0])
     columns, _ = next(reader.batches([at], at), ([np.zeros(0)], 1.0))
     numbers, counts = np.unique(columns[0], return_counts=True)
-    several = len(numbers) > 1 and np.array_equal(numbers, np.round(numbers))
+    several = (len(numbers) > 1 or told[0] == PERSON) and np.array_equal(numbers, np.round(numbers))
     if not several or not (known or _come_in_turn(columns[0], counts)):
         return reader
     return OneUnitReader(reader, at, int(columns[0][0]))
