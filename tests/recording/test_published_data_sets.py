@@ -32,8 +32,8 @@ def _attitude(time):
 def test_another_accelerometer_is_no_gyro(log, tmp_path):
     """As of mHealth, without names and times: chest, ankle (with a gyro) and arm."""
     time, gyro, force = log
-    zeros = np.zeros((N, 2))
-    columns = [force[:, [2, 0, 1]], zeros, force, np.degrees(gyro), 30 * force / G]
+    heart = 0.3 * np.sin(np.outer(time, [7, 8]))
+    columns = [force[:, [2, 0, 1]], heart, force, gyro, 30 * force / G]
     path = written(tmp_path / "subject1.log", rows(*columns, by="\t"))
     found = inspect(path).proposals[0]
     cells = {g.target: g.cell for g in found.guesses}

@@ -109,6 +109,7 @@ def _belonging(
     the one nearest before it is the accelerometer: a table of several units has each by itself.
     """
     several = []
+    forces = {k for run in _apart(like) for k in run}
     for accel in like:
         home = {array_of(reader.header[accel[0]])}
         rest = [run for run in values if not set(run) & set(accel)]
@@ -118,7 +119,7 @@ def _belonging(
         for run, guess in guesses.items():
             if guess.unit is not None and "gravity" in guess.why:
                 return accel, run
-        rest = [run for run in rest if run not in like]
+        rest = [run for run in rest if not set(run) & forces]
         if rest:
             fast = (run for run in rest if guesses[run].unit is not None)
             several.append((accel, next(fast, rest[0])))
@@ -127,14 +128,21 @@ def _belonging(
     return min(several, key=lambda pair: abs(apart[pair[0][0]] - apart[pair[1][0]]))
 
 
+def _apart(like: Sequence[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Those of the vectors, best first, that share no column with a better one."""
+    found: list[tuple[int, ...]] = []
+    for run in like:
+        if not any(set(run) & set(better) for better in found):
+            found.append(run)
+    return found
+
+
 def _others(
     found: Proposal, reader: Reader, like: Sequence[tuple[int, ...]], accel: tuple[int, ...]
 ) -> None:
     """Note the vectors that are an accelerometer by their numbers as well."""
-    named_ones = set(accel)
-    for run in sorted(like):
-        if not set(run) & named_ones:
-            named_ones |= set(run)
+    for run in sorted(_apart([accel, *like])):
+        if run != accel:
             cells = ", ".join(reader.header[k] for k in run)
             found.notes.append(f"{cells} may be the accel, too")
 
