@@ -20,7 +20,8 @@ from pyimu.attitude.filter.heading_update import LEVEL
 from pyimu.attitude.filter.stillness import TURN_STD
 from pyimu.attitude.filter.unscented import LARGEST_STD
 from pyimu.attitude.filter.variables import ABSURD, EXTRA_INPUTS
-from pyimu.attitude.rest import Rest, finite_rows
+from pyimu.attitude.filter.velocity import ON_ITS_WAY
+from pyimu.attitude.rest import Rest, finite_rows, turning
 from pyimu.errors import UserError
 from pyimu.model.part import Part
 from pyimu.model.signals import SIGNALS
@@ -36,6 +37,11 @@ MOVING_TILT_STD = 0.3
 
 PUSHED_TILT_STD = 0.2
 """rad; the same where the force does not change: a push of 2 m/s^2, as of a car in a bend."""
+
+STEADY_TILT_STD, STRAIGHT = 0.1, 0.05
+"""rad, rad/s; the same of a body that turns no faster than the second, biases included: a push
+across its way of more than 1 m/s^2 would take 20 m/s then. It is at its place, drives or flies
+straight ahead."""
 
 YAW_STD = 1e-3
 """rad; yaw starts at the given heading."""
@@ -301,7 +307,9 @@ def _tilt_std(recording: Recording, rest: Rest, force: np.ndarray | None) -> flo
     if rest.seen:
         return TILT_STD
     scatter = float(np.linalg.norm(finite_rows(recording.accel, rest.rows.stop).std(axis=0)))
-    return min(float(np.hypot(PUSHED_TILT_STD, scatter / rest.gravity)), MOVING_TILT_STD)
+    turns = turning(recording) > STRAIGHT
+    pushed, most = (PUSHED_TILT_STD, MOVING_TILT_STD) if turns else (STEADY_TILT_STD, ON_ITS_WAY[0])
+    return min(float(np.hypot(pushed, scatter / rest.gravity)), most)
 
 
 def _yaw_std(yaw: Yaw, attitude: Rotation, tilt_std: float) -> float:

@@ -306,6 +306,16 @@ def _rest(
     )
 
 
+def turning(recording: Recording) -> float:
+    """How fast [rad/s, RMS] a body turns in the first ``CARRIED`` s, by means over a quarter of a
+    second.
+    """
+    rate = finite_rows(recording.gyro, _rows(recording, CARRIED))
+    m = max(1, round(LENGTHS[1] / recording.sample_period))
+    means = rate[: len(rate) // m * m].reshape(-1, m, 3).mean(axis=1)
+    return float(np.sqrt(np.sum(means**2) / max(len(means), 1)))
+
+
 def _carried(recording: Recording, otherwise: np.ndarray) -> np.ndarray:
     """The forces of the first ``CARRIED`` s in the body's axes at the first sample, as the gyro
     measures its turns; ``otherwise`` where more than ``MISSING`` of its samples are missing.

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{578cb7e5-4560-e552-440c-89c0ccc35a7d}"
-#define MODEL_TOKEN_FMI3 "{66719d43-97a7-bf85-97ab-484c1ab1e2ae}"
+#define MODEL_TOKEN_FMI2 "{a182f810-dfe2-cb97-6f91-638c0a0fa682}"
+#define MODEL_TOKEN_FMI3 "{1c8a4f25-762e-01a2-c3d9-158c2511c574}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -27,14 +27,14 @@ enum {
 enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3124 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 764564 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 764603 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 764564 };
+enum { MODEL_MOST_SAMPLES = 764603 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 764564.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 764603.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

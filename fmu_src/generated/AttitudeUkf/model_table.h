@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{ee6a1bf0-c4d7-8f01-b192-b4593f3b6a07}"
-#define MODEL_TOKEN_FMI3 "{3c0fc54d-a8b3-30aa-efdf-d0b2772e6a92}"
+#define MODEL_TOKEN_FMI2 "{bd09f655-4e40-94ab-72f4-df00ddde95cc}"
+#define MODEL_TOKEN_FMI3 "{f115fe2a-a8b3-8442-4ea6-c3ab08617459}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -30,7 +30,7 @@ enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3124 };
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 764564 };
+enum { MODEL_MOST_SAMPLES = 764603 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -44,7 +44,7 @@ UNLEVELLED, MOST_AT_FIRST = 0.3, 0.3
 """s, m/s; a body whose tilt is not known is in motion, as one that is held or flies, with a
 velocity of so many seconds of the force that tilts it, and at most of this."""
 
-ON_ITS_WAY, FASTEST_AT_FIRST = (0.1, 0.19), 3.0
+ON_ITS_WAY, FASTEST_AT_FIRST = (0.15, 0.19), 3.0
 """rad, m/s; a body whose tilt is known to no more than the second of these angles may be on its
 way, as one that drives or flies, with so large a velocity; not where it is known to the first. With
 less, what pushes a drone or a car is taken for tilt and bias of the gyro within seconds; a hand
@@ -351,16 +351,16 @@ def followed(motion: Motion, x: Estimate, moves, bounds: Bounds, tilted, h) -> M
     the density 2 T s^2 of the velocity and P h of the filter's own variance. What it has beyond
     ``DRIFTS`` times that, and times what the gyro's scale factors may make of it, and ``SLIGHT``,
     is a walk: accelerations that last. While the body may be pushed as none was yet
-    (``LongPush.is_open``), its velocity walks so freely that it shows none of this. What a tilt by
-    these scale factors makes of it is compared with all of it but the bounded one's. ``moves`` 0 or
-    1 says whether the body moves at all, ``tilted`` (m/s^2)^2 is the variance that its tilt makes
-    of the force on a level axis.
+    (``LongPush.is_excluded``), its velocity walks so freely that it shows none of this. What a tilt
+    by these scale factors makes of it is compared with all of it but the bounded one's. ``moves`` 0
+    or 1 says whether the body moves at all, ``tilted`` (m/s^2)^2 is the variance that its tilt
+    makes of the force on a level axis.
     """
     time, gathered = bounds.time, motion.gathered
     level, squares, own, force = gathered.means()
     span = gathered.span
     least = bounds.least / 2 * reciprocal(time + h)
-    shows = 1 - motion.long.is_open
+    shows = motion.long.is_excluded
     window = ca.fmin(motion.known + FIRST_TIME, WINDOW)
     known = ca.fmin(motion.known + shows * span * reciprocal(time + span), WINDOW)
 
