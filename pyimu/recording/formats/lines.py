@@ -7,7 +7,7 @@ import gzip
 import io
 import re
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
@@ -314,3 +314,9 @@ class Body:
         if self._whole is not None:
             kept = list(filter(self._whole, kept))
         return b"\n".join(kept)
+
+
+def share(truths: Iterable[bool]) -> float:
+    """Share of the ``truths`` that hold, zero of none."""
+    seen = list(truths)
+    return sum(seen) / len(seen) if seen else 0.0

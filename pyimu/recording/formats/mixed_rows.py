@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from pyimu.recording.formats.cells import MISSING, is_number
-from pyimu.recording.formats.lines import is_comment
+from pyimu.recording.formats.lines import is_comment, share
 from pyimu.recording.naming.name import named
 from pyimu.recording.naming.triads import Triad, surest, triads
 
@@ -154,8 +154,8 @@ def _apart(
 ) -> Mixed | None:
     """The rows of the gyro, or those of the sensor ``topic``, where each has its own."""
     filled = {kind: [_has(row, triad.positions) for row in rows] for kind, triad in vectors.items()}
-    kinds = [kind for kind in KINDS if kind in filled and _share(filled[kind]) > SEEN]
-    if not {"gyro", "accel"} <= set(kinds) or _share(filled["gyro"]) > MOST:
+    kinds = [kind for kind in KINDS if kind in filled and share(filled[kind]) > SEEN]
+    if not {"gyro", "accel"} <= set(kinds) or share(filled["gyro"]) > MOST:
         return None
     if topic and topic not in kinds:
         return None
@@ -178,8 +178,3 @@ def _apart(
 
 def _has(row: Sequence[str], at: Iterable[int]) -> bool:
     return all(row[k] not in MISSING for k in at)
-
-
-def _share(truths: Iterable[bool]) -> float:
-    seen = list(truths)
-    return sum(seen) / len(seen) if seen else 0.0

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
-from pyimu.recording.formats.lines import is_comment
+from pyimu.recording.formats.lines import is_comment, share
 from pyimu.recording.spelling import unit_of
 
 Rewrite = Callable[[str], str]
@@ -57,18 +57,13 @@ def plain_numbers(lines: Sequence[str]) -> Plain | None:
         (_MINUS, "-", "the minus sign of printers"),
         (_HEXADECIMAL, lambda match: str(int(match[1], 16)), "numbers in hexadecimal digits"),
     ):
-        if _share(pattern.search(row) is not None for row in tail) >= SHARE / 2:
+        if share(pattern.search(row) is not None for row in tail) >= SHARE / 2:
             return Plain(_substitution(pattern, by), said)
     return _with_units(tail) or _with_lists(tail) or _with_commas(rows)
 
 
 def _substitution(pattern: re.Pattern[str], by: str | Callable[[re.Match[str]], str]) -> Rewrite:
     return lambda line: pattern.sub(by, line)
-
-
-def _share(truths) -> float:  # type: ignore[no-untyped-def]
-    seen = list(truths)
-    return sum(seen) / len(seen) if seen else 0.0
 
 
 def _with_units(tail: Sequence[str]) -> Plain | None:

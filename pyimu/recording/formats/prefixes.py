@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from pyimu.recording.formats.lines import share
 from pyimu.recording.formats.marked import Marked, Rewrite
 
 Clean = Callable[[str], str]
@@ -31,9 +32,9 @@ def without_prefixes(lines: Sequence[str]) -> Clean | None:
     rows = [line.rstrip("\r\n") for line in lines if line.strip()]
     tail = rows[len(rows) // 2 :]
     plain = [_without_marks(row) for row in tail]
-    marked = _share(a != b for a, b in zip(tail, plain, strict=True)) >= SHARE
+    marked = share(a != b for a, b in zip(tail, plain, strict=True)) >= SHARE
     rest = [row[match.end() :] for row in plain if (match := _STAMP.match(row))]
-    stamped = len(rest) >= SHARE * len(tail) and _share(map(_is_row, rest)) >= SHARE
+    stamped = len(rest) >= SHARE * len(tail) and share(map(_is_row, rest)) >= SHARE
     stamped = stamped and not (all(map(_ARROW.match, plain)) and all(map(_LABELS.match, rest)))
     if not stamped:
         return _without_marks if marked else None
@@ -61,11 +62,6 @@ def _with_column(line: str) -> str:
         return f"{match[1].split()[-1].rpartition('T')[2]} -> {rest}"
     by = max(",;\t", key=rest.count)
     return f"{match[1]}{by}{rest}"
-
-
-def _share(truths) -> float:  # type: ignore[no-untyped-def]
-    seen = list(truths)
-    return sum(seen) / len(seen) if seen else 0.0
 
 
 def behind(clean: Clean, marked: Marked | None, names: tuple[str, ...], clocks: tuple) -> Marked:
