@@ -27,7 +27,7 @@ def oxiod_truth(reader: Reader) -> ForeignMap | None:
     place in m and attitude, body to world, scalar last.
     """
     cells = unnamed(reader, "vi", 9)
-    if cells is None or not re.match(r"vi\d*\.csv", reader.path.name, re.IGNORECASE):
+    if cells is None or not re.search(r"(?<![a-z])vi\d*\.csv$", reader.path.name.lower()):
         return None
     time = time_line(reader, cells[:1])
     if not time:

@@ -194,6 +194,34 @@ def posed_by_cameras(folder, log):
     return table(folder / "vicon.csv", head, columns)
 
 
+def posed_by_vicon(folder, log):
+    """OxIOD's vi1.csv: a count, the place and the attitude, scalar last."""
+    time, half = log[0], np.linspace(0.05, 1.0, len(log[0]))
+    zero = 0 * half
+    turn = [np.sin(half), zero, zero, np.cos(half)]
+    rows = zip(time, range(len(time)), 0.1 * half, zero, zero + 1.2, *turn, strict=True)
+    return put(folder / "vi1.csv", [",".join(f"{v:.9g}" for v in row) for row in rows])
+
+
+# Vehicles
+
+
+def kaist(folder, log):
+    """The Xsens unit of KAIST's cars, with what it estimates itself before its samples."""
+    stamps = (log[0] * 1e9).round().astype(int)
+    own = np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (len(stamps), 1))
+    rows = zip(stamps, own, log[1], log[2], strict=True)
+    return put(
+        folder / "xsens_imu.csv", [",".join([str(t), *cells(*more, FIELD)]) for t, *more in rows]
+    )
+
+
+def posed_by_receiver(folder, log):
+    """The navigation result of KF-GINS."""
+    rows = ([2017, 456300 + t, 30.5, 114.4, 20.0, *[0.1] * 3, 1.0, 2.0, 90.0] for t in log[0])
+    return put(folder / "truth.nav", ["  ".join(f"{v:.6f}" for v in row) for row in rows])
+
+
 def _of_still(make):
     """The same of a log whose times are ns (``raw_logs.still``)."""
 
@@ -209,7 +237,7 @@ ALONE = tuple(
     for make in (
         *(px4, ardupilot, mavlink, vectornav),
         *(novatel, wisdm, pamap2, total_capture, hyper_imu, posed_by_cameras),
-        *(empatica, nexus),
+        *(empatica, nexus, posed_by_vicon, kaist, posed_by_receiver),
     )
 )
 """Layouts that are read as they are."""

@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{a182f810-dfe2-cb97-6f91-638c0a0fa682}"
-#define MODEL_TOKEN_FMI3 "{1c8a4f25-762e-01a2-c3d9-158c2511c574}"
+#define MODEL_TOKEN_FMI2 "{857f8149-fc1e-5be6-1b3b-b496b49589bc}"
+#define MODEL_TOKEN_FMI3 "{e4cc0f83-54c3-97a5-a285-ea790e4693b6}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

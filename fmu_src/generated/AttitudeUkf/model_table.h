@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{bd09f655-4e40-94ab-72f4-df00ddde95cc}"
-#define MODEL_TOKEN_FMI3 "{f115fe2a-a8b3-8442-4ea6-c3ab08617459}"
+#define MODEL_TOKEN_FMI2 "{879d08a8-61fc-5d19-dca1-186844d7b284}"
+#define MODEL_TOKEN_FMI3 "{53452d2a-362f-98da-dd50-22f5e832a8e9}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263

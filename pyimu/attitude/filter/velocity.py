@@ -44,7 +44,7 @@ UNLEVELLED, MOST_AT_FIRST = 0.3, 0.3
 """s, m/s; a body whose tilt is not known is in motion, as one that is held or flies, with a
 velocity of so many seconds of the force that tilts it, and at most of this."""
 
-ON_ITS_WAY, FASTEST_AT_FIRST = (0.15, 0.19), 3.0
+ON_ITS_WAY, FASTEST_AT_FIRST = (0.15, 0.19), 2.0
 """rad, m/s; a body whose tilt is known to no more than the second of these angles may be on its
 way, as one that drives or flies, with so large a velocity; not where it is known to the first. With
 less, what pushes a drone or a car is taken for tilt and bias of the gyro within seconds; a hand
