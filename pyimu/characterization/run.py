@@ -27,6 +27,7 @@ from pyimu.errors import Finding, UserError
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.numerics.threads import on_one_thread
+from pyimu.recording.companions import interpolated
 from pyimu.recording.log import Given, Log, is_one, open_log, recording_of
 from pyimu.recording.names import distinct_names
 from pyimu.recording.recording import Recording
@@ -98,8 +99,11 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
         moves = bool(moving) and not any(f.kind == "counts" for f in read.findings)
         # What moves has no rest that a shock could stand out of.
         sensors, shocks = (sensors, []) if moving else without_shocks(sensors, wrapped)
+        unlike = set(sensors) if moves else interpolated(known)
         results = {
-            kind: SensorAnalysis(name, samples, wrapped, moves, level, T0, store, say).result()
+            kind: SensorAnalysis(
+                name, samples, wrapped, kind in unlike, level, T0, store, say
+            ).result()
             for kind, samples in sensors.items()
         }
         if not any(c.noise for r in results.values() for c in r.channels):

@@ -35,15 +35,15 @@ SHORT = 32
 class SensorAnalysis:
     """A sensor of the log ``log``, and what its channels have in common.
 
-    ``wrapped`` are the columns whose integers wrapped around; a log that ``moves`` has no roll-off
-    that is the sensor's. ``level`` is the probability of the
-    intervals, ``T0`` the temperature [degC] at which the bias is given, None for its mean.
+    ``wrapped`` are the columns whose integers wrapped around. A roll-off is ``not_its_own`` where
+    the log moves, or values between two samples were interpolated. ``level`` is the probability
+    of the intervals, ``T0`` the temperature [degC] at which the bias is given, None for its mean.
     """
 
     log: str
     samples: Samples
     wrapped: Container[str]
-    moves: bool
+    not_its_own: bool
     level: float
     T0: float | None
     store: Store
@@ -104,7 +104,7 @@ class SensorAnalysis:
         self, axis: int, noise: NoiseAnalysis, lines: tuple[Line, ...], psd: Psd
     ) -> tuple[NoiseAnalysis, Bandwidth | None]:
         """The noise of a channel with what its low-pass does to it, and where that rolls off."""
-        found = None if self.moves else self._bandwidth(axis, noise, lines, psd)
+        found = None if self.not_its_own else self._bandwidth(axis, noise, lines, psd)
         if found is None:
             return noise, None
         memory = MEMORY / found.frequency.value

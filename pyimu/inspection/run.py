@@ -81,7 +81,7 @@ def inspect(
             else Log(Source.of(readers[0], foreign or ForeignMap(), proposals[0].holds)).read()
         )
     except UserError as error:
-        if known is not None and known[0] == STATED:
+        if kind == "own" or (known is not None and known[0] == STATED):
             found = _by_numbers(found, readers)
         return replace(found, problem=error.bare)
     say("looking for rests")
@@ -207,13 +207,19 @@ def _sized(guess: Guess, foreign: ForeignMap) -> Guess:
 
 
 def _by_numbers(found: Inspection, readers: Sequence[Reader]) -> Inspection:
-    """The same with what the numbers say of the columns, where they say something of all."""
+    """The same with what the numbers say of the columns, where they say something of all.
+
+    It is a guess where they say another unit of the time than the header, or ask for one.
+    """
     try:
         guesses = [proposed(reader) for reader in readers]
     except UserError:
         return found
-    if any(set(p.groups) - set(g.groups) for p, g in zip(found.proposals, guesses, strict=True)):
+    both = list(zip(found.proposals, guesses, strict=True))
+    if any(set(p.groups) - set(g.groups) for p, g in both):
         return found
+    if any(g.open_questions or p.units.get("time") != g.units.get("time") for p, g in both):
+        found = replace(found, kind="guessed", format="")
     return replace(found, proposals=guesses, column_map=text_of(_ordered(guesses)))
 
 
@@ -240,7 +246,7 @@ def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: st
             "name them in the map"
         )
     zeros = [g.group for p in proposals for g in p.guesses if g.why == ZEROS]
-    if seen <= set(zeros):
+    if seen and seen <= set(zeros):
         empty = " and ".join(dict.fromkeys(zeros))
         raise UserError(f"{reader.path}: {empty}: every number is zero, there is nothing to read")
     if "time" in unknown or seen <= set(unknown):

@@ -8,6 +8,7 @@ half the variance of white noise, and that is said.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -21,6 +22,9 @@ LONGEST = 1.5
 
 SAME = 1e-6
 """Part of a step by which two times may differ by rounding and be one."""
+
+BETWEEN = "between samples"
+"""How columns came to the log's times that were interpolated."""
 
 
 @dataclass
@@ -79,7 +83,7 @@ class Companion:
         if not self.nearest:
             detail = {
                 "file": name,
-                "how": "between samples",
+                "how": BETWEEN,
                 "noise_left": float(np.mean(self.left)),
             }
         groups = ", ".join(self.groups)
@@ -99,6 +103,14 @@ class Companion:
                 f"times of {main.source.header.path}, which begin at {time[0]:.9g} s: the two do "
                 "not overlap, or are on different clocks"
             )
+
+
+def interpolated(findings: Iterable[Finding]) -> set[str]:
+    """The groups whose values lie between samples of another file, by what was found in a log."""
+    between = (
+        f for f in findings if f.kind == "other_file" and f.detail["how"] == BETWEEN and f.column
+    )
+    return {group for f in between for group in f.column.split(", ")}
 
 
 def _one_to_one(time: np.ndarray, moved: np.ndarray, period: float) -> bool:

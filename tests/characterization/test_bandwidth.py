@@ -132,3 +132,30 @@ def test_what_fits_alike_is_said(channels):
     report = channels.report()
     assert "as through an analog low-pass of second order" in report
     assert " or an exponential average of the samples)" in report
+
+
+def test_between_samples_of_another_file_no_bandwidth_is_the_sensors(tmp_path):
+    """A gyro at 200 Hz beside an accelerometer at 100 Hz, both level: between the samples of the
+    second stands their mean, whose spectrum falls as that of a moving average does.
+    """
+    rng, n = np.random.default_rng(5), 16_000
+    samples = rng.standard_normal((n, 3)) * 1e-3
+    np.savetxt(tmp_path / "g.csv", np.column_stack([np.arange(n) * 5, samples]), delimiter=",")
+    rows = np.arange(n // 2) * 10 + 1.7
+    forces = [0.0, 0.0, 9.80665] + 0.03 * rng.standard_normal((n // 2, 3))
+    np.savetxt(tmp_path / "a.csv", np.column_stack([rows, forces]), delimiter=",")
+    of = '"column 1" = "time [ms]"\n' + "\n".join(
+        f'"column {k}" = "GROUP_{axis} [UNIT]"' for k, axis in zip((2, 3, 4), "xyz", strict=True)
+    )
+    gyro, accel = (
+        of.replace("GROUP", group).replace("UNIT", unit)
+        for group, unit in (("gyro", "rad/s"), ("accel", "m/s^2"))
+    )
+    entry = f'[[file]]\nname = "a.csv"\n[file.columns]\n{accel}\n'
+    (tmp_path / "map.toml").write_text(f"[columns]\n{gyro}\n{entry}")
+    log = pyimu.read_recording(tmp_path / "g.csv", tmp_path / "map.toml")
+    (said,) = (f for f in log.findings if f.kind == "other_file")
+    assert said.detail["how"] == "between samples"
+    sensors = pyimu.characterize(log).logs[0].sensors
+    for channel in (*sensors["gyro"].channels, *sensors["accel"].channels):
+        assert channel.bandwidth is None

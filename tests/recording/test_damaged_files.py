@@ -13,6 +13,7 @@ import pytest
 from places import CHECKOUT
 from scipy.io import savemat
 
+from pyimu import inspect
 from pyimu.errors import UserError
 from pyimu.model.part_file import load_part
 from pyimu.model.part_reader import parse_part
@@ -103,6 +104,19 @@ def test_a_rate_that_no_sensor_has_is_asked_about(unit, step, asked, tmp_path):
     (tmp_path / "log.csv").write_text(HEAD.replace("time [s]", f"time [{unit}]") + rows)
     for read in (read_recording, open_log):
         refused(read, tmp_path / "log.csv", says=asked)
+
+
+def test_the_map_of_such_a_log_has_the_unit_that_the_times_have(tmp_path):
+    """Stamps in ns under ``time [s]``, and that gyro under a unit that is none."""
+    log, made = tmp_path / "log.csv", tmp_path / "map.toml"
+    rows = "".join(f"{17 * 10**17 + k * 10**7},1,2,{k}\n" for k in range(50))
+    log.write_text(HEAD + rows)
+    found = inspect(log)
+    assert "are they in ns, at 100 Hz?" in found.problem and found.kind == "guessed"
+    assert f"pyimu inspect {log} --columns {made}" in found.report(made)
+    assert inspect(log, found.write_map(made)).recording.sample_rate == pytest.approx(100.0)
+    log.write_text(HEAD.replace("rad/s", "furlong/s") + rows)
+    assert inspect(log).proposals[0].open_questions == ["gyro"]
 
 
 # MAT files
