@@ -29,6 +29,7 @@ LATE = {
     "pyimu.characterization.run",
     "pyimu.model.tolerance",
     "pyimu.model.truth",
+    "pyimu.recording.fixes",
 }
 """Modules with imports of the package inside functions: casadi, scipy and numba take seconds, which
 ``pyimu --help``, a compiled run and most logs do without."""

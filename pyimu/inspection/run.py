@@ -237,7 +237,8 @@ def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: st
     order = sorted(range(len(readers)), key=lambda k: "gyro" not in proposals[k].groups)
     reader, first = readers[order[0]], proposals[order[0]]
     unknown = [group for p in proposals for group in p.open_questions]
-    seen = {"ref_q"} if first.holds == "reference" else {"gyro", "accel"} & set(first.groups)
+    seen = {group for group in first.groups if group.startswith("ref_")}
+    seen = seen if first.holds == "reference" else {"gyro", "accel"} & set(first.groups)
     if not seen and "time" not in unknown:
         if asked := question(reader):
             raise UserError(f"{reader.path}: {asked}")

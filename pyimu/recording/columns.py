@@ -110,6 +110,15 @@ ANGLES = ("ref_roll", "ref_pitch", "ref_yaw")
 """Columns in which a file may have ``ref_q``: Rz(yaw) Ry(pitch) Rx(roll), body to world, in the
 file's own axes."""
 
+FIXES = {stem: (f"{stem}_latitude", f"{stem}_longitude") for stem in ("ref", "position")}
+"""Columns in which a file may have places north and east, as receivers write them."""
+
+ELSE: Mapping[str, tuple[tuple[str, ...], ...]] = MappingProxyType(
+    {"ref_q": (ANGLES,), "latitude": tuple((fix[0],) for fix in FIXES.values())}
+    | {f"{stem}_{way}": (fix,) for stem, fix in FIXES.items() for way in ("north", "east")}
+)
+"""Columns from which a group is made where a file has none of its own."""
+
 DOWNWARD = {f"{stem}_down": f"{stem}_up" for stem in ("ref", "ref_velocity", "position")} | {
     "velocity_down": "velocity_up"
 }
@@ -120,18 +129,23 @@ GROUP_OF = {name: group for group in GROUPS for name in column_names(group)} | {
 
 UNITS = {name: GROUPS[group].unit for name, group in GROUP_OF.items() if group != "time"}
 UNITS |= {name: UNITS[up] for name, up in DOWNWARD.items()} | dict.fromkeys(ANGLES, "rad")
+UNITS |= {name: "rad" for fix in FIXES.values() for name in fix}
 UNITS["time"] = "s"
 
 GROUP_OF |= {name: GROUP_OF[up] for name, up in DOWNWARD.items()} | dict.fromkeys(ANGLES, "ref_q")
+GROUP_OF |= {
+    name: f"{stem}_{way}"
+    for stem, fix in FIXES.items()
+    for way, name in zip(("north", "east"), fix, strict=True)
+}
 
 
 def written_as(group: str, names: Container[str]) -> tuple[str, ...]:
     """The columns in which a file that has the columns ``names`` holds a group: of an attitude its
-    angles, where it is not there as a quaternion.
+    angles, where it is not there as a quaternion, of a place latitude and longitude.
     """
-    own = column_names(group)
-    angles = group == "ref_q" and not any(name in names for name in own)
-    return ANGLES if angles and any(name in names for name in ANGLES) else own
+    ways = (column_names(group), *ELSE.get(group, ()))
+    return next((way for way in ways if any(name in names for name in way)), ways[0])
 
 
 def own_name(cell: str) -> str | None:

@@ -14,7 +14,7 @@ import numpy as np
 from pyimu import units
 from pyimu.errors import Finding, UserError
 from pyimu.recording.columns import (
-    ANGLES,
+    ELSE,
     GROUP_OF,
     GROUPS,
     UNITS,
@@ -60,7 +60,7 @@ def read_scales(path: Path, table: Any) -> Mapping[str, Scale]:
         raise UserError(f"{path}: key scale must be a table")
     names = {"time": ("time",)} | {group: column_names(group) for group in GROUPS}
     names |= {name: (name,) for group in GROUPS for name in column_names(group)}
-    names |= {name: (name,) for name in ANGLES}
+    names |= {name: (name,) for ways in ELSE.values() for way in ways for name in way}
     for key in table:
         if key not in names:
             raise UserError(

@@ -217,8 +217,9 @@ class Header:
         if self._wanted == "reference" and not any(name.startswith("ref_") for name in self.names):
             raise UserError(
                 f"{self.path}: no reference in it; it needs ref_q (or ref_roll, ref_pitch and "
-                "ref_yaw), ref_rate, ref_heading, ref_north and ref_east, ref_velocity or "
-                "ref_force, or a column map (TOML) that names them"
+                "ref_yaw), ref_rate, ref_heading, ref_north and ref_east (or ref_latitude and "
+                "ref_longitude), ref_velocity or ref_force, or a column map (TOML) that names them"
+                f"; pyimu inspect {self.path} looks for them"
             )
         if self._wanted == "sensor" and "gyro_x" not in self.names and "accel_x" not in self.names:
             truth = any(name.startswith("ref_") for name in self.names)

@@ -18,6 +18,7 @@ from pyimu.recording.column_map import BODY, ForeignMap, read_map
 from pyimu.recording.columns import ANGLES, GROUP_OF, GROUPS, column_names, own_name
 from pyimu.recording.counter import NEARLY, Unwrapped, spans
 from pyimu.recording.counts import RawCounts
+from pyimu.recording.fixes import Fixes
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
@@ -47,6 +48,7 @@ KINDS = (
     "repeated_rows",
     "repeated_time",
     "coarse_stamps",
+    "place_origin",
     "reference_norm",
     "missing_cells",
     "counts",
@@ -189,6 +191,7 @@ class Rows:
         self._single = True
         self._before: Values | None = None
         self._even: EvenTimes | None = None
+        self._fixes = Fixes(header.path)
         self._last = np.zeros(0)
         self.origin: float | np.integer = 0
 
@@ -238,7 +241,8 @@ class Rows:
                 f"{self.source.header.path}: a recording needs at least {LEAST_ROWS} rows of data, "
                 f"this one has {self.kept}{self._at_one_time()}"
             )
-        self._tally.add([*self._raw.findings(), *self.source.reader.at_end(), *self._spread()])
+        at_end = [*self._fixes.findings(), *self.source.reader.at_end(), *self._spread()]
+        self._tally.add([*self._raw.findings(), *at_end])
         if counter.count:
             detail = {"after": counter.after}
             self._tally.add([Finding("counter_wrapped", "time", counter.count, detail)])
@@ -361,6 +365,8 @@ class Rows:
         for group in self.source.header.groups:
             columns = [values[name] for name in self.source.header.written_as(group)]
             groups[group] = np.column_stack(columns) if GROUPS[group].suffixes else columns[0]
+        made = ((g, v) for g, v in self._fixes.metres(values) if g not in values)
+        groups |= {group: column for group, column in made if group in groups}
         if "ref_q" in groups:
             groups["ref_q"] = self._attitude(groups["ref_q"])
         for name in (

@@ -43,7 +43,7 @@ SECONDS, SECONDS_OF_TIME = (
 RATES = ("rate", "frequency")
 """How the names of details end that are in Hz."""
 
-ANGLES = ("tilt", "angle", "_play")
+ANGLES = ("tilt", "angle", "_play", "latitude", "longitude")
 """How the names of details end that are angles in rad."""
 
 SENTENCES = {

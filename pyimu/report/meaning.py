@@ -107,6 +107,7 @@ MEANING = {
     "reference_scale": "the reference's path has the shape of the estimate's in another size",
     "reference_lag": "the reference lags as one behind a low-pass filter does; it was undone",
     "reference_line": "the reference has a line that the sensor's signal lacks; it was taken out",
+    "place_origin": "latitude and longitude are metres north and east of the first of them",
     "reference_norm": "quaternions of another length than one; those near zero count as not seen",
     "reference_order": "the reference attitude fits in another order, or in other axes",
     "reference_heading_drifts": "the reference's heading drifts slowly: its own, taken out",

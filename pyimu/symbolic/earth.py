@@ -31,6 +31,9 @@ def transport_rate(latitude, velocity, radius: float = EARTH_RADIUS):
     return ca.vertcat(-north, east, east * ca.tan(latitude))
 
 
+EQUATORIAL_RADIUS = 6378137.0
+"""m, WGS 84."""
+
 EQUATORIAL_GRAVITY, GRAVITY_SLOPE, ECCENTRICITY_SQUARED = (
     9.7803253359,
     1.93185265241e-3,

@@ -27,6 +27,7 @@ from pyimu.recording.guess.numbers import (
     rate_unit,
     warmth_unit,
 )
+from pyimu.recording.guess.receivers import add_received, received
 from pyimu.recording.guess.references import add_angles, add_place, add_reference, attitudes_in
 from pyimu.recording.naming.endings import fits
 from pyimu.recording.naming.name import Name, named, thermometer
@@ -91,9 +92,11 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     picked = {g: _surest(found, vectors, g) for g in ("accel", "gyro", "mag")}
     attitudes = attitudes_in(reader, numbers)
     place: dict[str, int] = {}
+    fixes = received(reader, numbers)
     if picked["accel"] is None and picked["gyro"] is None:
         place = spots(reader.header) if len(attitudes) == 1 else {}
         away = {k for at in attitudes for k in at.values()} | set(angles(reader.header).values())
+        away |= set(fixes.values())
         place = {} if away & set(place.values()) else place
         away |= set(place.values()) | elements(reader.header)
         if not question(reader):
@@ -113,6 +116,7 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     _temperature(found, reader, numbers)
     add_reference(found, reader, attitudes)
     add_angles(found, reader, numbers)
+    add_received(found, reader, numbers, fixes)
     add_place(found, reader, place)
     _own(found, reader)
     return found

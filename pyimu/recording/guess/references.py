@@ -75,7 +75,7 @@ def add_place(found: Proposal, reader: Reader, place: Mapping[str, int]) -> None
     """Add north, east and down or up of a file that holds a reference alone, or else its ``place``
     along x, y and z.
     """
-    if found.holds != "reference":
+    if found.holds != "reference" or "ref_north" in found.groups:
         return
     by_name = places(reader.header)
     asked = "" if by_name else "; is z up?"

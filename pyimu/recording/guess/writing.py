@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from pyimu.recording.columns import column_names
 from pyimu.recording.guess.guessed import CHOICES, Guess, Proposal
 
 WIDTH = 46
@@ -127,11 +128,11 @@ def _remarked(line: str, why: str) -> str:
 def _scales(guesses: Sequence[Guess], table: str, given: Mapping[str, Any]) -> list[str]:
     """The table of sizes of a count: those that were ``given`` as they were, and the others."""
     guesses = [g for g in guesses if not {g.group, g.target} & given.keys()]
-    sizes = {g.group: g for g in guesses if g.value is not None}
+    sizes = {_sized(g): g for g in guesses if g.value is not None}
     lines = _entries(given)
     lines += [
-        _remarked(f'{group} = {{value = {g.value!r}, unit = "{g.unit}"}}', "of one count")
-        for group, g in sizes.items()
+        _remarked(f'{name} = {{value = {g.value!r}, unit = "{g.unit}"}}', "of one count")
+        for name, g in sizes.items()
     ]
     open_sizes = {g.group: g for g in guesses if g.sizes}
     lines += [
@@ -143,6 +144,12 @@ def _scales(guesses: Sequence[Guess], table: str, given: Mapping[str, Any]) -> l
         for size in g.sizes
     ]
     return ["", f"[{table}]", *lines] if lines else []
+
+
+def _sized(guess: Guess) -> str:
+    """What the size of a count is said of: a group, or a column that is made into one."""
+    own = guess.target == guess.group or guess.target in column_names(guess.group)
+    return guess.group if own else guess.target
 
 
 def _entries(table: Mapping[str, Any]) -> list[str]:

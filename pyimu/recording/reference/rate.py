@@ -262,8 +262,8 @@ def _from_course(
         raise UserError(
             f"{source.name}: ref_north, ref_east are in m, about {north:.4f}, {east:.4f}, and "
             "change by less than a millimetre a second while the sensor moves: they look like "
-            "degrees of latitude and longitude; give metres north and east of some point, "
-            "a degree of latitude being 111 km"
+            "degrees of latitude and longitude, which are called ref_latitude [deg] and "
+            "ref_longitude [deg]"
         )
     found = course_of(source, recording.time)
     if found is None or not found.turns:
