@@ -53,6 +53,7 @@ def page(found: Outcome) -> str:
             pictures=[] if found.recording is None else _pictures(found),
             quality=quality_table((found.path.name, found.findings)),
             column_map=found.column_map,
+            given_to=found.proposals[0].given_to,
         )
     )
 
@@ -61,7 +62,9 @@ def _pictures(found: Outcome) -> list[Picture]:
     recording = found.recording
     assert recording is not None
     groups = [g for g in SHOWN if g in recording.groups] or [*recording.groups]
-    caption = "Least and largest sample over time; the grey bars below are stretches at rest."
+    caption = "Least and largest sample over time" + (
+        "; the grey bars below are stretches at rest." if len(found.rests) else "."
+    )
     drawn = [
         Picture(Markup(_over_time(recording, groups, found.rests)), caption, "samples over time")
     ]

@@ -19,6 +19,9 @@ from pyimu.report.findings import grouped
 from pyimu.report.glossary import words_on
 from pyimu.report.numbers import MISSING, in_unit, number, pretty, si_quantity, unit_for
 
+COLUMNS, LETTERS = 5, 50
+"""Columns, and letters of their heads, that stand side by side on a phone of 360 pixels."""
+
 
 @dataclass(frozen=True)
 class Table:
@@ -26,6 +29,13 @@ class Table:
 
     head: tuple[str, ...]
     rows: list[tuple] = field(default_factory=list)
+
+    @property
+    def wide(self) -> bool:
+        """Whether its columns are too many for a phone, or their heads too long: there the cells of
+        a row stand one below the other.
+        """
+        return len(self.head) > COLUMNS or len("".join(self.head)) > LETTERS
 
 
 @dataclass(frozen=True)
@@ -67,7 +77,7 @@ def templates(package: str) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.globals["words_on"] = words_on
+    environment.globals |= {"words_on": words_on, "missing": MISSING}
     return environment
 
 

@@ -9,7 +9,8 @@ import pytest
 import raw_logs
 from screenshots import OVERHANG, shots
 
-from pyimu.report.page import equation
+from pyimu.report.numbers import MISSING
+from pyimu.report.page import Table, equation, prose, templates
 
 pytestmark = [
     pytest.mark.long,
@@ -80,6 +81,26 @@ def test_tables_and_equations_fit_a_small_phone(opened, tmp_path, table):
     assert opened.value(OVERHANG) == 0
     over = "(e => e.scrollWidth - e.clientWidth)(document.querySelector('.scroll'))"
     assert opened.value(over) <= 0
+
+
+@pytest.mark.parametrize("columns", [5, 6, 9])
+def test_no_table_of_a_page_needs_to_be_pushed_aside(opened, tmp_path, columns):
+    """One of many columns stands row by row, each cell behind the head of its column."""
+    css = (files("pyimu.report") / "templates" / "page.css").read_text()
+    row = [prose("what became of it"), "0.0208 deg/s", MISSING]
+    shown = Table(tuple(f"head {k}" for k in range(columns)), [(row * 3)[:columns]] * 2)
+    macro = templates("pyimu.inspection").from_string(
+        '{% from "parts.html" import table %}{{ table(shown) }}'
+    )
+    (tmp_path / "page.html").write_text(
+        f"<meta name=viewport content='width=device-width'><style>{css}</style>"
+        + macro.render(shown=shown)
+    )
+    opened.open(browser.address(tmp_path / "page.html"), NARROW)
+    over = "(e => e.scrollWidth - e.clientWidth)(document.querySelector('.scroll'))"
+    assert opened.value(over) <= 0
+    first = "getComputedStyle(document.querySelector('td'), '::before').content"
+    assert opened.value(first) == ('"head 0"' if columns > 5 else "none")
 
 
 def test_a_page_of_the_site_is_no_wider_than_a_phone(opened, tmp_path):
