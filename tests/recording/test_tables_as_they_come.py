@@ -223,6 +223,25 @@ def test_letters_in_other_codes(code, said, name, tmp_path):
     assert layout.detail["read_as"] == "columns separated by semicolons, decimal commas" + said
 
 
+@pytest.mark.parametrize("form", ["{:.3f}", "{:.4f}"])
+def test_decimal_points_of_a_time_beside_decimal_commas(form, tmp_path):
+    """Three digits behind a point may be thousands, but not behind a zero alone."""
+    rows = [row.split(",") for row in ROWS]
+    text = [
+        ";".join([form.format(float(t)), *(v.replace(".", ",") for v in gyro)]) for t, *gyro in rows
+    ]
+    (tmp_path / "log.csv").write_text("\n".join([HEAD.replace(",", ";"), *text]))
+    found = read_recording(tmp_path / "log.csv")
+    np.testing.assert_allclose(found.time, [float(t) for t, *_ in rows], rtol=1e-14)
+    np.testing.assert_array_equal(found.gyro, read_recording(_plain(tmp_path)).gyro)
+    assert "decimal commas and decimal points" in of_kind(found, "layout")[0].detail["read_as"]
+
+
+def _plain(folder):
+    (folder / "plain.csv").write_text("\n".join([HEAD, *ROWS]))
+    return folder / "plain.csv"
+
+
 def test_utf16_that_is_cut_within_a_letter(tmp_path):
     text = "\n".join([HEAD, *ROWS, "3.00,0.1"]).encode("utf-16")[:-1]
     (tmp_path / "log.csv").write_bytes(text)

@@ -1,6 +1,7 @@
 """Numbers that are written otherwise than programs read them: with their unit in the cell
 (``9.81 m/s2``), with the minus sign of printers, in hexadecimal digits, with Fortran's exponent,
-with decimal commas between commas, or several in a cell as a list (``"[0.1, 0.2, 9.8]"``).
+with decimal commas between commas or beside decimal points, or several in a cell as a list
+(``"[0.1, 0.2, 9.8]"``).
 """
 
 from __future__ import annotations
@@ -29,6 +30,9 @@ _LIST = re.compile(rf"['\"]?[\[({{]\s*({_NUMBER}(?:(?:\s*[,;]\s*|\s+){_NUMBER})+
 _BETWEEN = re.compile(r"\s*[,;]\s*|\s+")
 _AROUND = " []()"
 """What may stand around all of a row, as where a program printed a list of lists."""
+_COMMA = re.compile(r"\s*[-+]?\d+,\d+(?:[eE][-+]?\d+)?\s*")
+_POINT = re.compile(r"\s*[-+]?\d+\.\d+(?:[eE][-+]?\d+)?\s*")
+_THOUSANDS = re.compile(r"\s*[-+]?[1-9]\d{0,2}(?:\.\d{3})+\s*")
 _WHOLE, _FRACTION = re.compile(r"\s*[-+]?\d+"), re.compile(r"\d+\s*")
 
 SHARE = 0.9
@@ -59,7 +63,7 @@ def plain_numbers(lines: Sequence[str]) -> Plain | None:
     ):
         if share(pattern.search(row) is not None for row in tail) >= SHARE / 2:
             return Plain(_substitution(pattern, by), said)
-    return _with_units(tail) or _with_lists(tail) or _with_commas(rows)
+    return _with_units(tail) or _with_lists(tail) or _with_commas(rows) or _with_two_marks(tail)
 
 
 def _substitution(pattern: re.Pattern[str], by: str | Callable[[re.Match[str]], str]) -> Rewrite:
@@ -171,5 +175,38 @@ def _joined(width: int, whole: int) -> Rewrite:
             return line
         pairs = zip(row[whole::2], row[whole + 1 :: 2], strict=True)
         return ",".join([*row[:whole], *(f"{a}.{b.strip()}" for a, b in pairs)])
+
+    return rewrite
+
+
+def _with_two_marks(tail: Sequence[str]) -> Plain | None:
+    """How rows are read in which some columns have decimal commas and others decimal points, as
+    where a program wrote its time and a spreadsheet the rest. Points that may part thousands are no
+    such ones.
+    """
+    for separator in SEPARATORS[1:]:
+        cells = [row.split(separator) for row in tail]
+        width = Counter(map(len, cells)).most_common(1)[0][0] if cells else 0
+        columns = list(zip(*(row for row in cells if len(row) == width), strict=True))
+        commas = {k for k, column in enumerate(columns) if _all(_COMMA, column)}
+        points = [c for c in columns if _all(_POINT, c) and not _all(_THOUSANDS, c)]
+        if commas and points and len(columns[0]) >= SHARE * len(tail):
+            return Plain(_pointed(commas, width, separator), "decimal commas and decimal points")
+    return None
+
+
+def _all(pattern: re.Pattern[str], cells: Sequence[str]) -> bool:
+    return share(pattern.fullmatch(cell) is not None for cell in cells) >= SHARE
+
+
+def _pointed(commas: set[int], width: int, separator: str) -> Rewrite:
+    def rewrite(line: str) -> str:
+        row = line.split(separator)
+        if len(row) != width:
+            return line
+        return separator.join(
+            cell.replace(",", ".") if k in commas and _COMMA.fullmatch(cell) else cell
+            for k, cell in enumerate(row)
+        )
 
     return rewrite
