@@ -41,6 +41,14 @@ VIBRATION = {"gyro": 0.02, "accel": 0.2}
 """Standard deviation [rad/s and m/s^2] within a second from which on it is not still, if it is no
 noise either."""
 
+FEW, BLOCK = 5, 16
+"""Samples in a second up to which their differences tell hardly any noise, and the quietest seconds
+far too little of it; of so slow a log those of so many samples in a row do."""
+
+SCATTER = {"gyro": 5e-3, "accel": 0.1}
+"""rad/s and m/s^2; the noise of a sample, at most, that is believed there (0.3 deg/s and 10 mg: no
+filter stands before it): what moves all the time scatters more."""
+
 RARE = 0.005
 """Share of the seconds with larger changes up to which these are shocks, and not motion."""
 
@@ -78,7 +86,8 @@ class Seconds:
 
     def moving(self, kind: str) -> np.ndarray:
         """Mask (k,) of the seconds in which a gyro or an accelerometer moves, or has just moved."""
-        noise = SIGMAS * np.sqrt(2.0 / self.length) * self.white
+        white = min(self.white, SCATTER[kind]) if self.length <= FEW else self.white
+        noise = SIGMAS * np.sqrt(2.0 / self.length) * white
         return np.abs(self.change) > DRIFT[kind] + noise
 
     def far(self, kind: str) -> np.ndarray:
@@ -107,6 +116,8 @@ def seconds_of(
     ]
     none = tuple(np.empty(0) for _ in range(3)) + (np.empty(0, dtype=int), np.empty(0, dtype=bool))
     mean, std, curvature, first, joined = map(np.concatenate, zip(none, *parts, strict=True))
+    if length <= FEW:
+        curvature = _in_a_row(column, segments)
     quiet = np.sort(curvature)[: max(1, len(curvature) // 4)]
     # Third differences of white noise have 20 times its variance, and next to nothing of a motion
     # below a tenth of the sample rate.
@@ -134,6 +145,16 @@ def _summary(
     joined = np.concatenate([[follows], seen[:-1]])
     first = start + length * np.arange(count)
     return tuple(v[seen] for v in (mean, np.sqrt(square), curvature, first, joined))
+
+
+def _in_a_row(column: np.ndarray, segments: Sequence[tuple[int, int]]) -> np.ndarray:
+    """Mean squares (b,) of the third differences of ``BLOCK`` samples, segment by segment."""
+    means = [np.zeros(0)]
+    for start, stop in segments:
+        third = np.diff(np.asarray(column[start:stop], dtype=float), n=3) ** 2
+        blocks = third[: len(third) // BLOCK * BLOCK].reshape(-1, BLOCK).mean(axis=1)
+        means.append(blocks[np.isfinite(blocks)])
+    return np.concatenate(means)
 
 
 def motion_of(

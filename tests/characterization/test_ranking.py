@@ -10,6 +10,7 @@ from pyimu.characterization.allan import octave_clusters, overlapping_deviation
 from pyimu.characterization.allan.law import allan_laws
 from pyimu.characterization.allan.moments import TERMS, moments
 from pyimu.characterization.noise.candidates import LooseMoments
+from pyimu.characterization.noise.coefficients import solve
 from pyimu.characterization.noise.fit import fit_noise
 from pyimu.characterization.noise.least_squares import Problem
 from pyimu.characterization.noise.ranking import log_likelihood, rank
@@ -57,6 +58,18 @@ def test_a_drift_that_stops_growing_is_gauss_markov_noise():
     assert found.models[0].terms == "NG" and len(found.times) == 1
     assert abs(np.log(found.times[0] / time)) < np.log(2) / 8
     assert found.problem.fit(found.kept)[-1] == pytest.approx(square, rel=0.1)
+
+
+def test_a_term_beside_which_another_explains_all_has_a_bound():
+    """Quantization of which there is less than none, as behind a filter: its square is zero, and so
+    is its error.
+    """
+    kept = [TERMS.index(t) for t in "QN"]
+    problem = Problem(_loose(), expected(np.array([-0.02, 1.0, 0, 0, 0])))
+    assert problem.fit(kept)[TERMS.index("Q")] == 0
+    found = solve(problem, kept, np.ones(5), 1.0, 0.95, kept)
+    assert found.needed == "N" and set(found.estimates) == {"N"}
+    assert found["Q"].value == 0 and 0 < found["Q"].high < np.inf
 
 
 def test_the_likelihood_of_one_variance_is_a_chi_square():

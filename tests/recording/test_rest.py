@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import (
     DRIFT,
@@ -37,6 +38,32 @@ def time(seconds=120):
 def test_noise_is_no_motion(seed):
     """Of 119 changes on each of six axes, each beyond five standard deviations once in 1.7e6."""
     assert is_at_rest(log(seed=seed)) and motion_in(log(seed=seed)) == []
+
+
+@pytest.mark.parametrize("rate", [0.5, 1.0, 3.0, 5.0])
+def test_unfiltered_noise_is_no_motion_at_any_rate(rate):
+    """Samples that a logger takes now and then have the noise of all of the sensor's bandwidth: of
+    a consumer part 0.15 deg/s and 5 mg. The least of what is believed of it is two thirds, and of
+    the changes of twelve hours one in two hundred may be beyond: each is so once in 1,000.
+    """
+    n, rng = round(12 * 3600 * rate), np.random.default_rng(3)
+    gyro, force = 0.15 * DEG * rng.standard_normal((n, 3)), 0.05 * rng.standard_normal((n, 3))
+    slow = Recording.from_arrays(
+        time=np.arange(n) / rate, gyro=gyro, accel=force + [0.0, 0.0, 9.80665]
+    )
+    assert motion_in(slow) == []
+    assert not {"gyro_noisy"} & {f.kind for f in quality(slow)}
+
+
+@pytest.mark.parametrize("rate", [1.0, 3.0])
+def test_a_drive_is_motion_at_any_rate(rate):
+    """A car that turns a corner every minute, at rates of ten degrees a second."""
+    at = np.arange(0.0, 3600.0, 1 / rate)
+    turn = 10 * DEG * np.maximum(np.sin(2 * np.pi * at / 60) - 0.8, 0) / 0.2
+    gyro = 0.1 * DEG * np.random.default_rng(4).standard_normal((len(at), 3))
+    gyro[:, 2] += turn
+    slow = Recording.from_arrays(time=at, gyro=gyro)
+    assert [f.column for f in motion_in(slow)] == ["gyro_z"]
 
 
 @pytest.mark.parametrize("period", [4.0, 20.0, 60.0])

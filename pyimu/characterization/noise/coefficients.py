@@ -191,6 +191,8 @@ def solve(
     """
     kept = problem.needed(chosen) if kept is None else kept
     squares = problem.fit(kept)
+    # One beside which another explains all has no interval of its own, but a bound.
+    kept = [i for i in kept if squares[i] > 0] or kept
     covariance = (
         problem.covariance(kept, squares)
         if has_noise(squares)

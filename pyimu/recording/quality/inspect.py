@@ -63,6 +63,10 @@ NOISIEST = np.radians(0.15) / np.sqrt(2)
 """rad/sqrt(s); half as much again as the noisiest gyro of the built-in parts has, an ADXRS300 of
 0.1 deg/s/sqrt(Hz) one-sided."""
 
+SLOWEST = 0.02
+"""s; in samples that are farther apart the noise of all of a gyro's bandwidth, 25 Hz or more, is
+folded, and no more than that: it is no density."""
+
 JITTER = 0.01
 """RMS deviation of the sample steps from their median, in periods, above which it is reported."""
 
@@ -225,7 +229,8 @@ def _at_rest(recording: Recording) -> Iterator[Finding]:
     if np.median(level) > ZERO_RATE:
         yield Finding("gyro_at_rest", "gyro", count, {"value": float(np.median(level))})
     differences = np.diff(rate, axis=1).std(axis=1) / np.sqrt(2)
-    n = float(np.median(differences.max(axis=1)) * np.sqrt(recording.sample_period))
+    period = min(recording.sample_period, SLOWEST)
+    n = float(np.median(differences.max(axis=1)) * np.sqrt(period))
     if n > NOISIEST:
         yield Finding("gyro_noisy", "gyro", count, {"white_noise": n})
 
