@@ -1,5 +1,7 @@
 """A reference whose heading drifts slowly: that is along the vertical, and no bias of a sensor."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
@@ -67,6 +69,16 @@ def test_a_heading_that_drifts_is_the_references(seed, bias, off):
     assert found.detail["level"] == pytest.approx(np.sqrt(np.mean(true**2)), rel=off)
     taken = np.linalg.norm((trial.u - steady.u)[:, OWN["gyro"]], axis=1)
     assert np.sqrt(np.mean((taken - np.abs(true)) ** 2)) < off * DRIFT
+
+
+@pytest.mark.parametrize("still", ["gyro", "reference"])
+def test_beside_what_stands_still_no_drift_is_seen(still):
+    trial = trial_of(0)
+    y = trial.y * (still != "gyro")
+    u = trial.u.copy()
+    u[:, OWN["gyro"]] *= still != "reference"
+    trial = replace(trial, y=y, u=u)
+    assert with_steady_heading(trial) is trial
 
 
 @pytest.mark.parametrize("bias", [lambda *_: 0.0, warms_up, follows_gravity])

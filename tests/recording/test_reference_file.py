@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from pyimu.errors import UserError
 from pyimu.recording.log import read_recording, read_reference
 from pyimu.recording.recording import Recording
-from pyimu.recording.reference.course import looks_like_degrees
+from pyimu.recording.reference.course import course_of, looks_like_degrees
 from pyimu.recording.reference.epoch import time_apart
 from pyimu.recording.reference.file import other_time, with_reference, with_references
 from pyimu.recording.reference.rate import reference_rate
@@ -231,6 +231,12 @@ def test_degrees_of_latitude_under_metres_are_refused(noise):
     )
     with pytest.raises(UserError, match="car: ref_north.*degrees of latitude.*ref_latitude"):
         reference_rate(car)
+
+
+def test_places_of_which_none_is_known_have_no_course():
+    t, none = np.arange(0.0, 60.0, 0.1), np.full(600, np.nan)
+    course = course_of(Recording.from_arrays(time=t, ref_north=none, ref_east=none))
+    assert not course.turns and np.isnan(course.rate).all()
 
 
 @pytest.mark.parametrize("origin", [0.0, 3.0, 60.0])

@@ -145,10 +145,13 @@ def _biases(hats: np.ndarray) -> list[np.ndarray]:
 
 
 def _apart(drift: list[np.ndarray], hats: np.ndarray) -> float:
-    """Share of the power of a drift, in the mean, that no bias which changes as slowly has."""
+    """Share of the power of a drift, in the mean, that no bias which changes as slowly has; none
+    where nothing of it shows, as of a gyro or a reference that stands still.
+    """
     basis, _ = np.linalg.qr(hats)
     left = sum(float(np.sum(unexplained(basis, c) ** 2)) for c in drift)
-    return left / sum(float(np.sum(c**2)) for c in drift)
+    power = sum(float(np.sum(c**2)) for c in drift)
+    return left / power if power > 0 else 0.0
 
 
 def _along(hats: np.ndarray, axis: np.ndarray) -> list[np.ndarray]:

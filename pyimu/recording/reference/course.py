@@ -164,7 +164,8 @@ def _course(nodes_at: np.ndarray, values: np.ndarray, order: int, time: np.ndarr
     known = fresh(values)
     spread = white_noise(values[known])
     track = Track(nodes_at, known, lambda nodes: np.diff(values[nodes], axis=0), SPIKE * spread)
-    pieces, noise = smoothed([(nodes_at[nodes], values[nodes]) for nodes in track.segments], spread)
+    seen = [(nodes_at[nodes], values[nodes]) for nodes in track.segments]
+    pieces, noise = smoothed(seen, spread) if seen else ([], spread)
     course, rate, speed, std = np.full((4, len(time)), np.nan)
     for nodes, piece in zip(track.segments, pieces, strict=True):
         rows = within(time, nodes_at[nodes])
