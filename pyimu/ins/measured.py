@@ -11,6 +11,7 @@ from pyimu.block.parameters import number
 from pyimu.errors import Finding, UserError
 from pyimu.ins.filtered import Filtered
 from pyimu.recording.recording import Recording
+from pyimu.recording.reference.track import fresh
 
 ENU = ("east", "north", "up")
 
@@ -203,7 +204,9 @@ def _at_their_rows(
 
 
 def _values(recording: Recording, name: str) -> np.ndarray | None:
-    """East, north, up (n, 3), NaN where missing; None where one of the first two is."""
+    """East, north, up (n, 3), NaN where missing, and where a log holds the last one until the next
+    is there; None where one of the first two is.
+    """
     east, north, up = (getattr(recording, f"{name}_{axis}") for axis in ENU)
     if east is None and north is None:
         return None
@@ -213,7 +216,11 @@ def _values(recording: Recording, name: str) -> np.ndarray | None:
                 f"{recording.name}: {name}_{axis} is missing beside its other axis; a {name} takes "
                 f"{name}_east and {name}_north"
             )
-    return np.column_stack([east, north, np.full(len(recording), np.nan) if up is None else up])
+    values = np.column_stack([east, north, np.full(len(recording), np.nan) if up is None else up])
+    held = np.ones(len(values), dtype=bool)
+    held[fresh(values[:, :2])] = False
+    values[held] = np.nan
+    return values
 
 
 def _origin(values: np.ndarray) -> np.ndarray:

@@ -10,6 +10,7 @@ from scipy.stats import chi2
 
 from pyimu.errors import UserError
 from pyimu.ins import run
+from pyimu.ins.measured import fixes_of
 from pyimu.ins.report.page import page
 from pyimu.rover.trajectory import Drive
 
@@ -174,6 +175,18 @@ def test_an_age_that_is_none_is_refused(log, age, said):
 def test_what_is_told_of_measurements_that_are_not_there_is_refused(log, name):
     with pytest.raises(UserError, match=f"{name} was told, and there is no measured"):
         navigate(log, **{name: 0.5})
+
+
+def test_positions_that_are_held_from_one_to_the_next_count_once(log):
+    """As a table has them that was written at the sensor's rate."""
+    sparse, names = fixed(log), [f"position_{axis}" for axis in ("east", "north", "up")]
+    last = np.arange(len(log.time)) // 50 * 50
+    held = replace(sparse, **{name: getattr(sparse, name)[last] for name in names})
+    ours, theirs = fixes_of(held), fixes_of(sparse)
+    np.testing.assert_array_equal(ours.rows, theirs.rows)
+    np.testing.assert_array_equal(ours.position, theirs.position)
+    for name, column in theirs.columns.items():
+        np.testing.assert_array_equal(ours.columns[name], column)
 
 
 def test_a_fix_without_height_leaves_the_height_alone(log):
