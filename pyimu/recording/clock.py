@@ -263,7 +263,9 @@ class Clock:
             if self._off(period) > max(OTHER_RATE, least)
         ]
         heaps = self._parts if len(self._periods) < FEW else self._periods
-        if others and self._periods and not _two_heaps(np.sort(heaps)):
+        # At a second rate below two thirds of the first every step is a gap, and in no window.
+        seldom = [p for _, p in others if p > (1 + OTHER_RATE) * max(self._periods, default=p)]
+        if 2 * len(seldom) < len(others) and self._periods and not _two_heaps(np.sort(heaps)):
             periods = (self.cadence.period, *self._periods)
             detail = {
                 "rate": 1 / self.cadence.period,

@@ -67,6 +67,18 @@ def test_a_short_log_of_two_rates_has_two(n, jitter):
     assert [f.kind for f in clock.findings()] == ["two_rates"]
 
 
+@pytest.mark.parametrize("n", [2000, 60_000])
+@pytest.mark.parametrize("slower", [2.0, 2.5, 10.0])
+def test_a_second_rate_whose_steps_are_gaps_is_one(n, slower):
+    """No window of it has a period among those of the first rate, which does not wander."""
+    clock = Clock(Cadence.of_period(0.01))
+    clock.add(np.cumsum(np.where(np.arange(n) < 0.6 * n, 0.01, slower * 0.01)))
+    kinds = {f.kind: f.detail for f in clock.findings()}
+    assert "rate_wanders" not in kinds
+    # Of a short log the window in which the rate changes may be the middle one of the others.
+    assert kinds["two_rates"]["other_rate"] == pytest.approx(100 / slower, rel=0.5)
+
+
 @pytest.mark.parametrize("shape", ["drift", "wave"])
 @pytest.mark.parametrize("size", [0.02, 0.1])
 def test_a_rate_that_wanders_is_one_rate(shape, size):
