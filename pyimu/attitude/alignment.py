@@ -20,8 +20,8 @@ from pyimu.attitude.filter.heading_update import LEVEL
 from pyimu.attitude.filter.stillness import TURN_STD
 from pyimu.attitude.filter.unscented import LARGEST_STD
 from pyimu.attitude.filter.variables import ABSURD, EXTRA_INPUTS
-from pyimu.attitude.filter.velocity import ON_ITS_WAY
-from pyimu.attitude.rest import Rest, finite_rows, turning
+from pyimu.attitude.rest import Rest
+from pyimu.attitude.underway import BIAS_STD, PUSH_STD, TWICE, Underway
 from pyimu.errors import UserError
 from pyimu.model.part import Part
 from pyimu.model.signals import SIGNALS
@@ -35,22 +35,11 @@ TILT_STD = 0.01
 MOVING_TILT_STD = 0.3
 """rad; tilt of an attitude levelled while moving, at most."""
 
-PUSHED_TILT_STD = 0.2
-"""rad; the same where the force does not change: a push of 2 m/s^2, as of a car in a bend."""
-
-STEADY_TILT_STD, STRAIGHT = 0.1, 0.05
-"""rad, rad/s; the same of a body that turns no faster than the second, biases included: a push
-across its way of more than 1 m/s^2 would take 20 m/s then. It is at its place, drives or flies
-straight ahead."""
-
 YAW_STD = 1e-3
 """rad; yaw starts at the given heading."""
 
 DEFINED_STD = 1e-5
 """rad; yaw starts where it is defined to be zero."""
-
-BIAS_STD = 0.01
-"""rad/s; of the bias of a gyro that was not seen at rest."""
 
 REUSED = 10.0
 """Factor on the standard deviation of what the filter will take from the same rows once more: of
@@ -87,7 +76,7 @@ def initial_values(
     attitude = _levelled(force, yaw.angle) if q0 is None else given_attitude(q0)
     tilt_std, yaw_std = TILT_STD, YAW_STD
     if q0 is None:
-        tilt_std = _tilt_std(recording, rest, force)
+        tilt_std = _tilt_std(rest, force)
         yaw_std = _yaw_std(yaw, attitude, tilt_std)
     axes = attitude.inv().as_matrix()
     attitude_std = np.sqrt(axes**2 @ np.array([tilt_std, tilt_std, yaw_std]) ** 2)
@@ -96,13 +85,19 @@ def initial_values(
         oriented, headed = force is not None or q0 is not None, yaw.known or q0 is not None
         earth = _earth(latitude, oriented, headed)
         bias, bias_std = _bias(rate, part, rest, attitude, *earth, levelled=force is not None)
+    elif rest.underway is not None:
+        bias, bias_std = _bias_underway(rate, rest.underway, bias_std)
     named = {
         "q0": attitude.as_quat(scalar_first=True),
         "bias0": bias,
         "std0": np.concatenate([attitude_std, bias_std]),
     }
+    pushed = 0.0
+    if not rest.seen and force is not None and q0 is None:
+        pushed = PUSH_STD if rest.underway is None else rest.underway.push_std
     return {
         "latitude": latitude,
+        "push_std": pushed,
         **{f"{n}[{i + 1}]": float(v) for n, array in named.items() for i, v in enumerate(array)},
     }
 
@@ -154,6 +149,18 @@ def _bias(
     return bias, np.sqrt(variance + (bias / 2) ** 2)
 
 
+def _bias_underway(
+    rate: np.ndarray, found: Underway, unseen: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Bias (3,) of a gyro in motion, whose compensated bias is ``rate``, and its standard deviation
+    (3,), rad/s. None on an axis where less is known than the standard deviation ``unseen`` (3,)
+    says of a gyro that was not looked at.
+    """
+    std = np.hypot(TWICE * found.bias_std, EARTH_RATE)
+    told = std < unseen
+    return np.where(told, rate, 0.0), np.where(told, std, unseen)
+
+
 def _earth(latitude: float, oriented: bool, headed: bool) -> tuple[np.ndarray, np.ndarray]:
     """The Earth's rate (3,) in world axes at the start, and its standard deviation (3,), rad/s.
 
@@ -191,7 +198,7 @@ def _compensated(
     """
     force = np.array([0, 0, rest.gravity]) if rest.force is None else rest.force
     known = {
-        "rate": rest.rate,
+        "rate": rest.rate if rest.underway is None else rest.underway.bias,
         "specific_force": force,
         "temperature": _mean(temperature_of(recording, part), rest, 25.0),
     }
@@ -292,24 +299,19 @@ def _magnetic_yaw(recording: Recording, rest: Rest, north: MagneticNorth) -> Yaw
     east, ahead, up = _levelled(rest.force, 0.0).apply(rows.mean(axis=0))
     level = max(float(np.hypot(east, ahead)), 1e-12)
     angle = np.pi / 2 - north.declination - np.arctan2(ahead, east)
-    tilt_std = _tilt_std(recording, rest, rest.force)
+    tilt_std = _tilt_std(rest, rest.force)
     std = np.hypot(north.across(level, up), tilt_std * up) / level
     return Yaw(float(angle), min(REUSED * max(std, YAW_STD), LARGEST_STD), known=True)
 
 
-def _tilt_std(recording: Recording, rest: Rest, force: np.ndarray | None) -> float:
-    """Standard deviation of the tilt of an attitude levelled by ``force``, rad.
-
-    In motion a mean is off by no more than its samples are, beside a push that lasts.
-    """
+def _tilt_std(rest: Rest, force: np.ndarray | None) -> float:
+    """Standard deviation of the tilt of an attitude levelled by ``force``, rad."""
     if force is None:
         return LARGEST_STD
     if rest.seen:
         return TILT_STD
-    scatter = float(np.linalg.norm(finite_rows(recording.accel, rest.rows.stop).std(axis=0)))
-    turns = turning(recording) > STRAIGHT
-    pushed, most = (PUSHED_TILT_STD, MOVING_TILT_STD) if turns else (STEADY_TILT_STD, ON_ITS_WAY[0])
-    return min(float(np.hypot(pushed, scatter / rest.gravity)), most)
+    most = MOVING_TILT_STD
+    return most if rest.underway is None else min(TWICE * rest.underway.tilt_std, most)
 
 
 def _yaw_std(yaw: Yaw, attitude: Rotation, tilt_std: float) -> float:

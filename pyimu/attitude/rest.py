@@ -6,14 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import solve_banded
-from scipy.spatial.transform import Rotation
 from scipy.special import fdtri
 
 from pyimu.attitude.filter.prediction import DRIVES
 from pyimu.attitude.filter.stillness import FAST, SHARE, SLOW, swaying_density
+from pyimu.attitude.underway import Underway, underway
 from pyimu.display.brief import Brief
 from pyimu.errors import Finding
-from pyimu.recording.integration import integrated
 from pyimu.recording.recording import Recording
 from pyimu.recording.rest import still_rows
 from pyimu.units import STANDARD_GRAVITY
@@ -26,14 +25,6 @@ LENGTHS = (1.0, 0.25)
 
 SHORTEST = 0.5
 """s; of the rows whose rates and noise are looked at where there is no rest."""
-
-CARRIED = 7.0
-"""s; over which the force is averaged, turned along by the gyro, where there is no rest: a hand's
-velocity of 0.5 m/s makes 0.4 deg of tilt then, waves of that time next to none, and a bias of 0.3
-deg/s one degree. From 4 to 7 s boats and hands come out the better, the others the same."""
-
-MISSING = 0.05
-"""Share of the gyro's samples without which the force is not turned along."""
 
 PARTS = 10
 """Means of the force over a rest, by which a turn is looked for."""
@@ -97,7 +88,7 @@ class Rest(Brief):
     The means and standard deviations are (3,) in rad/s and m/s^2.
 
     ``seen`` is False where no rest was found: the rows are then those of the shortest window, and
-    the force is that of ``CARRIED`` s in axes of the first sample.
+    what the log tells of its start is in ``underway``, None where that is nothing.
     ``declared`` says that the recording's own column ``stationary`` marks it. ``force`` is None
     where no accelerometer measures gravity. ``rate_std`` and ``force_std`` are those of a sample's
     white noise, ``rate_mean_std`` that of the mean rate; ``rate_density`` in rad/s/sqrt(Hz) and
@@ -124,6 +115,7 @@ class Rest(Brief):
     sways: bool = False
     even: EvenTurn = EvenTurn()
     other_force: float | None = None
+    underway: Underway | None = None
 
 
 def gravity_findings(rest: Rest | None) -> tuple[Finding, ...]:
@@ -237,10 +229,8 @@ def finite_rows(values: np.ndarray | None, stop: int) -> np.ndarray:
 
 
 def _is_gravity(force: np.ndarray, gravity: float, off: float) -> bool:
-    """Whether the mean force has the magnitude of ``gravity``, to ``off`` m/s^2 and to half."""
-    if not len(force):
-        return False
-    return abs(np.linalg.norm(force.mean(axis=0)) - gravity) < min(off, gravity / 2)
+    """Whether a mean ``force`` (3,) has the size of ``gravity``, to ``off`` m/s^2 and to half."""
+    return bool(abs(np.linalg.norm(force) - gravity) < min(off, gravity / 2))
 
 
 def _is_level(recording: Recording, stop: int, gravity: float) -> bool:
@@ -249,7 +239,9 @@ def _is_level(recording: Recording, stop: int, gravity: float) -> bool:
     A force of zeros alone says nothing about it.
     """
     rate, force = (finite_rows(v, stop) for v in (recording.gyro, recording.accel))
-    return bool(len(rate)) and (not np.any(force) or _is_gravity(force, gravity, FORCE_OFF))
+    return bool(len(rate)) and (
+        not np.any(force) or _is_gravity(force.mean(axis=0), gravity, FORCE_OFF)
+    )
 
 
 def _size(recording: Recording, stop: int) -> float | None:
@@ -282,51 +274,29 @@ def _rest(
     mean, mean_std = np.zeros(3), np.zeros(3)
     if len(rate):
         mean, mean_std = rate.mean(axis=0), rate.std(axis=0) / np.sqrt(len(rate))
-    own = force
-    if not seen and len(own):
-        force = _carried(recording, own)
+    moving = None if seen or not len(force) else underway(recording)
+    shown = force.mean(axis=0) if len(force) else np.zeros(3)
+    shown = shown if moving is None else moving.force
     # In motion even a force of half the magnitude of gravity is a better direction than none.
-    usable = _is_gravity(force, gravity, FORCE_OFF if seen else np.inf)
+    usable = len(force) and _is_gravity(shown, gravity, FORCE_OFF if seen else np.inf)
     period = recording.sample_period
-    rate_density, force_density = (root_density(v, period, seen) for v in (rate, own))
+    rate_density, force_density = (root_density(v, period, seen) for v in (rate, force))
     return Rest(
         seen and len(rate) > 1,
         slice(0, stop),
         float(recording.time[stop - 1] - recording.time[0]),
         mean,
-        force.mean(axis=0) if usable else None,
+        shown if usable else None,
         white_std(rate),
-        white_std(own),
+        white_std(force),
         np.hypot(mean_std, 1e-6),
         rate_density,
         force_density,
         gravity,
         declared,
         seen and not declared and sways(rate, period, float(np.mean(rate_density**2))),
+        underway=moving,
     )
-
-
-def turning(recording: Recording) -> float:
-    """How fast [rad/s, RMS] a body turns in the first ``CARRIED`` s, by means over a quarter of a
-    second.
-    """
-    rate = finite_rows(recording.gyro, _rows(recording, CARRIED))
-    m = max(1, round(LENGTHS[1] / recording.sample_period))
-    means = rate[: len(rate) // m * m].reshape(-1, m, 3).mean(axis=1)
-    return float(np.sqrt(np.sum(means**2) / max(len(means), 1)))
-
-
-def _carried(recording: Recording, otherwise: np.ndarray) -> np.ndarray:
-    """The forces of the first ``CARRIED`` s in the body's axes at the first sample, as the gyro
-    measures its turns; ``otherwise`` where more than ``MISSING`` of its samples are missing.
-    """
-    stop = _rows(recording, CARRIED)
-    known = [np.isfinite(v[:stop]).all(axis=1) for v in (recording.gyro, recording.accel)]
-    if np.mean(~known[0]) > MISSING or not known[1].any():
-        return otherwise
-    rate = np.where(known[0][:, None], recording.gyro[:stop], 0.0)
-    turned = integrated(rate, recording.sample_period, Rotation.identity())
-    return turned[known[1]].apply(recording.accel[:stop][known[1]])
 
 
 def sways(rate: np.ndarray, period: float, noise: float) -> bool:

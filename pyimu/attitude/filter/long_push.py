@@ -32,11 +32,6 @@ RISE, FALL = 3.0, 40.0
 """Correlation times of a bounded velocity over which the variance is averaged, where it rises and
 where it falls: who turns now will turn again."""
 
-FIRST = 0.335
-"""m/s^2; of the pushes of a body whose tilt was not known at the start, as long as the run has not
-shown that they are smaller: a car on its way or a drone in the air has such. With 1 the tilt of a
-boat, whose bias is not known either, is off for longer. Chosen as ``velocity.ON_ITS_WAY``."""
-
 EXCLUDED = 0.03
 """(m/s^2)^2; pushes that the run has not shown are none where they are less. With 0.01 the velocity
 of a fast hand is learned late or never, with 0.06 that of a car from its pushes. Chosen on seeds 7,

@@ -249,6 +249,14 @@ SETTINGS = (
         "run finds out, over eight times this time",
         1.0,
     ),
+    _setting(
+        "push_std",
+        "m/s^2",
+        "standard deviation of an axis of pushes that last, as of a vehicle or an aircraft that is "
+        "on its way before the first sample, until the run shows how large they are; its velocity "
+        "then is that of so large a push over 6 s. A log that begins in motion shows it",
+        0.0,
+    ),
     Variable(
         "motion_share",
         "1",

@@ -44,13 +44,10 @@ UNLEVELLED, MOST_AT_FIRST = 0.3, 0.3
 """s, m/s; a body whose tilt is not known is in motion, as one that is held or flies, with a
 velocity of so many seconds of the force that tilts it, and at most of this."""
 
-ON_ITS_WAY, FASTEST_AT_FIRST = (0.15, 0.19), 2.0
-"""rad, m/s; a body whose tilt is known to no more than the second of these angles may be on its
-way, as one that drives or flies, with so large a velocity; not where it is known to the first. With
-less, what pushes a drone or a car is taken for tilt and bias of the gyro within seconds; a hand
-shows soon that it has a tenth of it. Chosen on three starts in motion of each of 14 bodies (hands,
-arms, drones, cars, boats) by a generator of their own, where 3 m/s held roundabouts better, and
-lowered for boats in waves of 8 s (``drives.bodies.at_sea``, seeds 5/0 to 5/3)."""
+PUSHED_FOR = 6.0
+"""s; a body that is on its way before the first sample has the velocity of its pushes over so
+long: a car of 0.335 m/s^2 2 m/s. With less, what pushes a drone or a car is taken for tilt and bias
+of the gyro within seconds; a hand shows soon that it has a tenth of it."""
 
 WINDOW, RISE = 8.0, 7.0
 """Correlation times of the velocity over which its variance is estimated, where it falls and where
@@ -254,34 +251,28 @@ def rescaled(before: Estimate, q, own, leak, rate, scale_std, push: Push):
 def first_std(at: Mapping[str, ca.SX]):
     """Standard deviation [m/s] of the velocity before the first sample, by the settings ``at``.
 
-    Zero where they say that it never accelerates, larger where no rest has shown the tilt.
+    Zero where they say that it never accelerates, larger where no rest has shown the tilt, and of a
+    body that was on its way.
     """
     least = ca.fmax(FIRST_STD, MOST_AT_FIRST * unlevelled(at))
-    least = ca.fmax(least, FASTEST_AT_FIRST * on_its_way(at))
+    least = ca.fmax(least, PUSHED_FOR * at["push_std"])
     return ca.fmax(at["accel_std"] * at["motion_time"], least) * (at["accel_std"] > 0)
 
 
 def first_push(at: Mapping[str, ca.SX]):
     """Variance [(m/s^2)^2] of the pushes that last before the first sample, by the settings ``at``.
 
-    Zero where they say that it never accelerates, and where a rest has shown the tilt.
+    Zero where they say that it never accelerates.
     """
-    return long_push.FIRST**2 * on_its_way(at) * (at["accel_std"] > 0)
-
-
-def on_its_way(at: Mapping[str, ca.SX]):
-    """Whether the body may be on its way before the first sample, by the settings ``at``: 0 to 1 by
-    how little is known of the tilt.
-    """
-    least, most = ON_ITS_WAY
-    return ca.fmin(ca.fmax(_first_tilt_std(at) - least, 0) * (1 / (most - least)), 1)
+    return at["push_std"] ** 2 * (at["accel_std"] > 0)
 
 
 def unlevelled(at: Mapping[str, ca.SX]):
     """How little is known of the tilt before the first sample, by the settings ``at``: 0 of a body
     that is level, 1 of one that may move by ``MOST_AT_FIRST``.
     """
-    return ca.fmin(UNLEVELLED / MOST_AT_FIRST * at["gravity"] * _first_tilt_std(at), 1)
+    tilted = UNLEVELLED / MOST_AT_FIRST * at["gravity"] * _first_tilt_std(at)
+    return ca.fmin(ca.fmax(tilted, at["push_std"] > 0), 1)
 
 
 def _first_tilt_std(at: Mapping[str, ca.SX]):
