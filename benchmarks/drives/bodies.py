@@ -299,6 +299,14 @@ FIELD = np.array([0.0, 19e-6, -45e-6])
 """T; east, north, up."""
 
 
+def leaning(yaw: np.ndarray, thrust: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pitch and roll (n,) of a body whose upward axis lies along its ``thrust`` (n, 3)."""
+    ahead = thrust[:, 0] * np.cos(yaw) + thrust[:, 1] * np.sin(yaw)
+    left = thrust[:, 1] * np.cos(yaw) - thrust[:, 0] * np.sin(yaw)
+    pitch = np.arctan2(ahead, thrust[:, 2])
+    return pitch, -np.arctan2(left, np.hypot(ahead, thrust[:, 2]))
+
+
 def drone(rng, current: float, duration=180.0, **more):
     """It stands for 10 s, then flies about by leaning, with motors whose field of ``current`` T in
     hover grows with the thrust, whose vibration of 2 m/s^2 is faster than the samples.
@@ -309,10 +317,7 @@ def drone(rng, current: float, duration=180.0, **more):
     pushed = slope(velocity)
     yaw = rng.uniform(-3, 3) + integral(flies * 0.4 * smooth(rng, t, 1.0)[:, 0])
     whole = pushed + [0.0, 0.0, GRAVITY]
-    ahead = whole[:, 0] * np.cos(yaw) + whole[:, 1] * np.sin(yaw)
-    left = whole[:, 1] * np.cos(yaw) - whole[:, 0] * np.sin(yaw)
-    pitch = np.arctan2(ahead, whole[:, 2])
-    roll = -np.arctan2(left, np.hypot(ahead, whole[:, 2]))
+    pitch, roll = leaning(yaw, whole)
     wobble = 0.02 * smooth(rng, t, 0.05, 3) * flies[:, None]
     axes = axes_of(yaw + wobble[:, 0], pitch + wobble[:, 1], roll + wobble[:, 2])
     every = FINE // RATE

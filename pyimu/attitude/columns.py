@@ -61,6 +61,10 @@ is an engine."""
 CLEARLY = 1.25
 """Times its part's noise above which a sensor is noisier: 300 samples scatter by a twentieth."""
 
+AS_FAR = 0.8
+"""Share of the largest sample below which a level is no end of a sensor's range, offsets and all:
+were it taken for one, every sample beyond it would count as lost."""
+
 LEAST_WARMING = 1.0
 """s; in less no part warms, what changes is noise of its thermometer."""
 
@@ -272,11 +276,21 @@ def _clipped(values: np.ndarray | None) -> dict[str, dict[str, np.ndarray]]:
     if values is None:
         return {}
     levels = (
-        [abs(level) for level in clipping_level(column) if level is not None] for column in values.T
+        [abs(level) for level in clipping_level(column) if _is_range(level, column)]
+        for column in values.T
     )
     limit = np.array([min(level, default=0.0) for level in levels])
     effect, parameter = read_off(CATALOGUE.values(), "ceiling")
     return {effect: {parameter: limit}} if limit.any() else {}
+
+
+def _is_range(level: float | None, column: np.ndarray) -> bool:
+    """Whether a ``level`` at which the samples of a ``column`` (n,) pile up may be the end of the
+    sensor's range: that goes as far the other way.
+    """
+    if level is None:
+        return False
+    return abs(level) >= AS_FAR * np.max(np.abs(column[np.isfinite(column)]))
 
 
 def recorded_heading(recording: Recording) -> tuple[np.ndarray, np.ndarray]:

@@ -11,9 +11,10 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run
 from pyimu.attitude.columns import NOMINAL_MOTION_BIAS, motion_bias
-from pyimu.attitude.filter.long_push import FIRST, LEAST, LongPush, followed
+from pyimu.attitude.filter.long_push import LEAST, LongPush, followed
 from pyimu.attitude.filter.variables import USUAL
 from pyimu.attitude.filter.velocity import FIRST_STD, UNLEVELLED, first_std
+from pyimu.attitude.underway import PUSH_STD
 from pyimu.recording.recording import Recording
 
 N, K, N_ACCEL = 1e-4, 1e-5, 1e-3
@@ -129,8 +130,8 @@ def test_pushes_that_were_not_excluded_are_once_the_force_stays_small():
         now = LongPush(state[:2], state[2], state[3])
         after = followed(now, ca.vertcat(level, 0), 100.0, 0.0, 1.0, H)
         step = ca.Function("step", [state], [ca.vertcat(*after.pack())])
-        last = step.mapaccum(round(60 / H))(ca.vertcat(*LongPush.start(FIRST**2).pack()))
-        left = float(last[3, -1]) / FIRST**2
+        last = step.mapaccum(round(60 / H))(ca.vertcat(*LongPush.start(PUSH_STD**2).pack()))
+        left = float(last[3, -1]) / PUSH_STD**2
         if level:
             assert left > 0.7
         else:

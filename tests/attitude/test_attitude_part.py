@@ -108,6 +108,12 @@ def test_where_samples_pile_up_a_measured_part_clips_though_it_does_not_say():
     assert (seen > 0).any()
     assert "saturation" not in as_taken(measured, log()).gyro.values
     assert "saturation" not in as_taken(part(), log(0.5)).gyro.values
+    # No range ends where samples the other way go four times as far.
+    far, axis = log(0.5), int(np.argmax(seen))
+    back = far.gyro[:, axis] < 0
+    far.gyro[back, axis] *= 4.0
+    limit = as_taken(measured, far).gyro.values["saturation"]["limit"]
+    assert limit[axis] == 2.0, limit
 
 
 def test_a_heading_that_drifts_is_set_right_in_each_window():

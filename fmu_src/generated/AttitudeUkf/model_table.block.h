@@ -7,34 +7,34 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{857f8149-fc1e-5be6-1b3b-b496b49589bc}"
-#define MODEL_TOKEN_FMI3 "{e4cc0f83-54c3-97a5-a285-ea790e4693b6}"
+#define MODEL_TOKEN_FMI2 "{6514a95a-bc17-8c87-9cc4-6d26ab733055}"
+#define MODEL_TOKEN_FMI3 "{55a7357d-7f35-85f5-51f0-6ed44fb25e7c}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 18,
-    N_PARAMETERS = 63,
+    N_PARAMETERS = 64,
     N_OUTPUTS = 21,
     N_STATES = 358,
     N_CONSTANTS = 112,
     N_NOISE = 0,
-    N_VARIABLES = 78
+    N_VARIABLES = 79
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3124 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3127 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 764603 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 764487 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 764603 };
+enum { MODEL_MOST_SAMPLES = 764487 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 764603.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 764487.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
@@ -65,35 +65,36 @@ static const BlockVariable variables[] = {
     {"motion_tolerance", KIND_REAL, ROLE_TUNABLE, 20, 1, 0.0, INFINITY},
     {"steady_tolerance", KIND_REAL, ROLE_TUNABLE, 21, 1, 0.0, INFINITY},
     {"motion_time", KIND_REAL, ROLE_TUNABLE, 22, 1, 0.0, INFINITY},
-    {"motion_share", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, 1.0},
-    {"rate_noise", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, INFINITY},
-    {"scale_std", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
-    {"axes_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
-    {"bias_noise", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
-    {"motion_bias", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
-    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
-    {"rest_time", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, INFINITY},
-    {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},
-    {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
-    {"slip_std", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, INFINITY},
-    {"speed_tolerance", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
-    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
-    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.0, INFINITY},
-    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 37, 6, 0.0, 1000000.0},
-    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 43, 1, 0.0, INFINITY},
-    {"declination", KIND_REAL, ROLE_TUNABLE, 44, 1, -3.141592653589793, 3.141592653589793},
-    {"field_strength", KIND_REAL, ROLE_TUNABLE, 45, 1, 0.0, INFINITY},
-    {"field_dip", KIND_REAL, ROLE_TUNABLE, 46, 1, -1.5707963267948966, 1.5707963267948966},
-    {"field_strength_std", KIND_REAL, ROLE_TUNABLE, 47, 1, 0.0, INFINITY},
-    {"field_std", KIND_REAL, ROLE_TUNABLE, 48, 1, 0.0, INFINITY},
-    {"field_time", KIND_REAL, ROLE_TUNABLE, 49, 1, 0.0, INFINITY},
-    {"field_turning_std", KIND_REAL, ROLE_TUNABLE, 50, 1, 0.0, INFINITY},
-    {"field_noise", KIND_REAL, ROLE_TUNABLE, 51, 1, 0.0, INFINITY},
-    {"field_tolerance", KIND_REAL, ROLE_TUNABLE, 52, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 53, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 56, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 57, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 60, 3, 0.0, INFINITY},
+    {"push_std", KIND_REAL, ROLE_TUNABLE, 23, 1, 0.0, INFINITY},
+    {"motion_share", KIND_REAL, ROLE_TUNABLE, 24, 1, 0.0, 1.0},
+    {"rate_noise", KIND_REAL, ROLE_TUNABLE, 25, 1, 0.0, INFINITY},
+    {"scale_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
+    {"axes_std", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
+    {"bias_noise", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
+    {"motion_bias", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
+    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, INFINITY},
+    {"rest_time", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},
+    {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
+    {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, INFINITY},
+    {"slip_std", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
+    {"speed_tolerance", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
+    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.0, INFINITY},
+    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 37, 1, 0.0, INFINITY},
+    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 38, 6, 0.0, 1000000.0},
+    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 44, 1, 0.0, INFINITY},
+    {"declination", KIND_REAL, ROLE_TUNABLE, 45, 1, -3.141592653589793, 3.141592653589793},
+    {"field_strength", KIND_REAL, ROLE_TUNABLE, 46, 1, 0.0, INFINITY},
+    {"field_dip", KIND_REAL, ROLE_TUNABLE, 47, 1, -1.5707963267948966, 1.5707963267948966},
+    {"field_strength_std", KIND_REAL, ROLE_TUNABLE, 48, 1, 0.0, INFINITY},
+    {"field_std", KIND_REAL, ROLE_TUNABLE, 49, 1, 0.0, INFINITY},
+    {"field_time", KIND_REAL, ROLE_TUNABLE, 50, 1, 0.0, INFINITY},
+    {"field_turning_std", KIND_REAL, ROLE_TUNABLE, 51, 1, 0.0, INFINITY},
+    {"field_noise", KIND_REAL, ROLE_TUNABLE, 52, 1, 0.0, INFINITY},
+    {"field_tolerance", KIND_REAL, ROLE_TUNABLE, 53, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 54, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 57, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 58, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 61, 3, 0.0, INFINITY},
     {"q", KIND_REAL, ROLE_OUTPUT, 0, 4, -INFINITY, INFINITY},
     {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
@@ -115,12 +116,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 77,
+    SAMPLE_PERIOD = 78,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.0001, 0.0, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0001, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 0.1, 0.01, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.4e-07, 2e-07, 300.0, 1e-06, 1e-07, 0.13, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.0001, 0.0, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 0.0001, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 0.1, 0.01, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.4e-07, 2e-07, 300.0, 1e-06, 1e-07, 0.13, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

@@ -46,6 +46,9 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real motionTime(unit="s", min=0) = 1
     "Correlation time of the velocity of a body that stays in its place"
     annotation(Dialog(group="Filter"));
+  parameter Real pushStd(unit="m/s2", min=0) = 0
+    "Standard deviation of an axis of pushes that last, as of a vehicle or an aircraft that is on its way before the first sample, until the run shows how large they are"
+    annotation(Dialog(group="Filter"));
   parameter Real motionShare(unit="1", min=0, max=1) = 0.0001
     "Least share that the density of that velocity has at low frequency of one of that correlation time, as far as the run shows less"
     annotation(Dialog(group="Filter"));
@@ -216,10 +219,10 @@ protected
   Modelica.Blocks.Interfaces.RealInput speedVarianceUsed;
   Modelica.Blocks.Interfaces.BooleanInput speedValidUsed;
   Modelica.Blocks.Interfaces.RealInput magUsed[3];
-  final parameter Real p[63] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
+  final parameter Real p[64] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
     bias0[3], std0[1], std0[2], std0[3], std0[4], std0[5], std0[6], gravity, accelStd,
     accelBiasStd, accelCorrelationTime, gravityWalk, gravityTolerance, motionTolerance,
-    steadyTolerance, motionTime, motionShare, rateNoise, scaleStd, axesStd, biasNoise,
+    steadyTolerance, motionTime, pushStd, motionShare, rateNoise, scaleStd, axesStd, biasNoise,
     motionBias, stationaryStd, restTime, restRateTolerance, restForceTolerance, slipStd,
     speedTolerance, lostRateStd, stuckTime, axisStuckTime[1], axisStuckTime[2],
     axisStuckTime[3], axisStuckTime[4], axisStuckTime[5], axisStuckTime[6], headingMemory,
@@ -250,6 +253,7 @@ equation
   assert(motionTolerance >= 0, "AttitudeUkf: motionTolerance must not be below 0");
   assert(steadyTolerance >= 0, "AttitudeUkf: steadyTolerance must not be below 0");
   assert(motionTime >= 0, "AttitudeUkf: motionTime must not be below 0");
+  assert(pushStd >= 0, "AttitudeUkf: pushStd must not be below 0");
   assert(motionShare >= 0, "AttitudeUkf: motionShare must not be below 0");
   assert(motionShare <= 1, "AttitudeUkf: motionShare must not be above 1");
   assert(rateNoise >= 0, "AttitudeUkf: rateNoise must not be below 0");
@@ -368,6 +372,9 @@ averaged, and what the size of gravity at rest says of it.</td></tr>
 gravity as it was measured at rest; beyond, that is called another than gravity.</td></tr>
 <tr><td>motionTime</td><td>Correlation time of the velocity of a body that stays in its place. How
 large that is the run finds out, over eight times this time.</td></tr>
+<tr><td>pushStd</td><td>Standard deviation of an axis of pushes that last, as of a vehicle or an
+aircraft that is on its way before the first sample, until the run shows how large they are; its
+velocity then is that of so large a push over 6 s. A log that begins in motion shows it.</td></tr>
 <tr><td>motionShare</td><td>Least share that the density of that velocity has at low frequency of
 one of that correlation time, as far as the run shows less. The errors of a real accelerometer in
 motion look like a slow velocity: a run over a log takes 1, which does not ask the run, where

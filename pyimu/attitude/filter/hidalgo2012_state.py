@@ -185,7 +185,7 @@ class Layout:
         """The state before the first sample."""
         settings = Settings.of(self.compensation, p, OWN_PARAMETERS)
         at, gravity = settings.scalar, gravity_of(settings)
-        still = first_estimate(at | {"accel_std": 0, "motion_time": 0})
+        still = first_estimate(at | {"accel_std": 0, "motion_time": 0, "push_std": 0})
         held = [v for name in self.compensation.extra for v in SIGNALS[name].start]
         return State(
             Estimate(still.q, still.bias, ca.SX(0, 1), still.covariance[:N, :N]),
