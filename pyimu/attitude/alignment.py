@@ -85,7 +85,7 @@ def initial_values(
         oriented, headed = force is not None or q0 is not None, yaw.known or q0 is not None
         earth = _earth(latitude, oriented, headed)
         bias, bias_std = _bias(rate, part, rest, attitude, *earth, levelled=force is not None)
-    elif rest.underway is not None:
+    elif rest.underway is not None and force is not None:
         bias, bias_std = _bias_underway(rate, rest.underway, bias_std)
     named = {
         "q0": attitude.as_quat(scalar_first=True),

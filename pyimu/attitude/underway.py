@@ -40,6 +40,9 @@ FINEST = 0.005
 MISSING = 0.05
 """Share of the gyro's samples without which the force is not turned along."""
 
+GAP = 0.2
+"""s; rows that are missing for longer end what is looked at: nobody knows how the body turned."""
+
 TILT_STD = 0.5
 """rad; of the tilt of the mean force, before that of any part of it is compared."""
 
@@ -144,18 +147,24 @@ def underway(recording: Recording) -> Underway | None:
 def _samples(recording: Recording) -> tuple[np.ndarray, np.ndarray, float] | None:
     """The rates (n, 3) and forces (n, 3) of the start, one a period in s; None without these.
 
-    A rate that is missing is none; a force that is missing is NaN.
+    A rate that is missing is none; a force that is missing is NaN. Where rows are missing for no
+    more than ``GAP`` the rate after them is that of the whole time.
     """
-    stop = int(np.searchsorted(recording.time, recording.time[0] + LONGEST))
     if recording.gyro is None or recording.accel is None:
         return None
+    stop = int(np.searchsorted(recording.time, recording.time[0] + LONGEST))
+    many = max(1, int(FINEST / recording.sample_period))
+    lasts = np.ones((len(recording.time), 1))
+    for start, _ in recording.segments[1:]:
+        gap = recording.time[start] - recording.time[start - 1]
+        stop = min(stop, start) if gap > GAP else stop
+        lasts[start] = gap / recording.sample_period
     rate, force = recording.gyro[:stop], recording.accel[:stop]
     known, shown = (np.isfinite(v).all(axis=1, keepdims=True) for v in (rate, force))
-    many = max(1, int(FINEST / recording.sample_period))
     n = stop // many
     if np.mean(~known) > MISSING or n < FEWEST * SHORTER:
         return None
-    rate, force = np.where(known, rate, 0.0), np.where(shown, force, np.nan)
+    rate, force = np.where(known, lasts[:stop] * rate, 0.0), np.where(shown, force, np.nan)
     parts = (v[: n * many].reshape(n, many, 3).mean(axis=1) for v in (rate, force))
     return *parts, many * recording.sample_period
 

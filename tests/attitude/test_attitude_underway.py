@@ -59,7 +59,7 @@ def test_tilt_and_bias_are_as_unsure_as_it_says():
     the variance has the scatter of as many squares as there are bodies.
     """
     rng, tilts, biases, pushes = np.random.default_rng(2), [], [], []
-    stays, std, n = np.exp(-1 / (RATE * LASTS)), 0.5, 60
+    stays, std, n = np.exp(-1 / (RATE * LASTS)), 0.5, 30
     for _ in range(n):
         t, axes = turned(rng, LONGEST)
         drawn = std * rng.standard_normal((len(t) - 1, 2)) * np.sqrt(1 - stays**2)
@@ -123,6 +123,24 @@ def test_what_is_missing_is_left_out():
         kept = {} if accel is None else {"accel": accel}
         assert underway(Recording.from_arrays(time=log.time, gyro=gyro, **kept)) is None
     assert underway(log.slice(0, 8)) is None
+
+
+def test_over_a_short_gap_the_body_turns_on_and_a_long_one_is_the_end():
+    rng = np.random.default_rng(6)
+    t, axes = turned(rng, 60.0)
+    log = recorded(t, axes, np.zeros(3), np.zeros(3))
+
+    def without(first: int, count: int) -> Recording:
+        kept = np.ones(len(log.time), dtype=bool)
+        kept[first : first + count] = False
+        columns = (log.time[kept], log.gyro[kept], log.accel[kept])
+        return Recording.from_arrays(**dict(zip(("time", "gyro", "accel"), columns, strict=True)))
+
+    whole, short, long = underway(log), underway(without(500, 3)), underway(without(500, 20))
+    assert short.duration == pytest.approx(whole.duration, abs=0.3)
+    assert long.duration == pytest.approx(500 / RATE, abs=0.1)
+    for found in (whole, short, long):
+        assert np.linalg.norm(off(found, axes)) < found.tilt_std
 
 
 def test_a_short_log_knows_less():
