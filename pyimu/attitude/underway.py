@@ -185,8 +185,9 @@ def _fitted(short: Means, up: np.ndarray, bias: np.ndarray, span: float) -> Unde
     weight = cho_solve(whole, design @ prior).T
     at = expected + weight @ left
     variance = np.diag(prior - weight @ design @ prior)
-    pushes = (short.force @ level.T).ravel() - _design(short, size, level, up) @ at
-    square = (pushes @ pushes + DRAWN * PUSH_STD**2) / (len(pushes) + DRAWN)
+    fine = _design(short, size, level, up)
+    pushes = (short.force @ level.T).ravel() - fine @ at
+    gyro = np.kron(size**2 * _walk(short.angle), np.eye(2))
     tilted = up + level.T @ at[:2]
     return Underway(
         len(means.force) * span,
@@ -194,8 +195,21 @@ def _fitted(short: Means, up: np.ndarray, bias: np.ndarray, span: float) -> Unde
         float(np.sqrt(np.mean(variance[:2]))),
         bias + at[2:5],
         np.sqrt(variance[2:5]),
-        float(np.sqrt(square)),
+        _push_std(pushes, fine @ weight, gyro),
     )
+
+
+def _push_std(pushes: np.ndarray, fitted: np.ndarray, gyro: np.ndarray) -> float:
+    """m/s^2; of the ``pushes`` (2 m,) that the fit has left of the shorter means, less what the
+    errors of the gyro, of the covariance ``gyro``, are expected to leave there.
+
+    The fit took ``fitted`` (2 m, 2 k) times the longer means.
+    """
+    count, n = fitted.shape[1] // 2, len(pushes)
+    longer = np.kron(np.eye(count), np.full((1, SHORTER), 1 / SHORTER))
+    leaves = np.eye(n) - fitted @ np.kron(longer, np.eye(2))
+    square = max(pushes @ pushes - np.sum((leaves @ gyro) * leaves), 0.0)
+    return float(np.sqrt((square + DRAWN * PUSH_STD**2) / (n + DRAWN)))
 
 
 def _design(means: Means, size: float, level: np.ndarray, up: np.ndarray) -> np.ndarray:
