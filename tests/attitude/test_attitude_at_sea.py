@@ -9,8 +9,8 @@ from pyimu.recording.recording import Recording
 
 
 def test_waves_are_no_bias_of_a_boat_that_never_rested():
-    """A filter that fitted tilt and bias to waves of 8 s was 0.4 to 55 deg off with these seeds, and
-    one that took the boat for a car on its way 1 to 2 deg. They sway it by 0.25 m RMS in either
+    """A filter that fitted tilt and bias to waves of 8 s was 0.4 to 55 deg off with these seeds,
+    and one that took the boat for a car on its way 1 to 2 deg. They sway it by 0.25 m RMS in either
     direction: what is level by its forces is 1.27 deg off by itself, and by less than half of that
     beside a gyro.
     """
