@@ -65,4 +65,5 @@ def test_inspect_does_not_advise_itself(tmp_path):
     with pytest.raises(UserError, match="pyimu inspect .* looks which one the numbers fit"):
         read_recording(tmp_path / "log.csv")
     said = inspect(tmp_path / "log.csv")
-    assert "gyro_z has no unit" in said.problem and "pyimu inspect" not in said.report()
+    assert "gyro_z has no unit" in said.problem and "looks which" not in said.report()
+    assert said.proposals[0].open_questions == ["gyro"]  # to be chosen in the map that it writes
