@@ -33,6 +33,9 @@ A second table has the smoothed attitude of the recordings of BROAD, of which ea
 estimated by all others, beside vqf's ``offlineVQF``, with what the smoother claims of its error.
 The smoother has no constant of its own.
 
+A third has the recordings of BROAD begun in motion: of each what moves, from 15 s and from 45 s
+after its first row that does, by gyro and accelerometer. Nothing was chosen on these.
+
 The constants of the motion (``pyimu.attitude.filter.velocity``) were chosen on 02, 11 and 26 as
 well, the noise that grows with the rate of a gyro of which no part says anything on 02, 07, 09 and
 26.
@@ -69,6 +72,9 @@ FURTHER = (
 SKIPPED = 5.0
 """s; the start of a further recording, in which the filters settle; of its end a twentieth, where
 one has spikes in its reference."""
+
+BEGUN = (15.0, 45.0)
+"""s; after the first row that moves, from which on a recording is taken for one that begins so."""
 
 DRIFT_TIME = 20.0
 """s; over which a heading without a magnetometer drifts."""
@@ -119,6 +125,7 @@ def main() -> None:
         )
     drift_table(drifts)
     smoothed_table(paths[: len(SCORED)])
+    begun_table([logs[p] for p in paths[: len(SCORED)]], VQF)
     magnetic = [log for log in logs.values() if log.mag is not None]
     nine_axes(magnetic, VQF)
     placed_table(magnetic)
@@ -265,6 +272,29 @@ def smoothed_table(paths: list[Path]) -> None:
         found.append(rms)
         _smoothed_row(path.name.split(".")[0], rms, f"{claimed:9.3f}")
     _smoothed_row("mean", np.mean(found, axis=0), "")
+
+
+def begun_table(logs: list, peer) -> None:
+    """The error of recordings that begin in motion, and the mean over them."""
+    print(f"\n{'begun in motion: inclination, RMS [deg]':52s}{'pyimu':>8s}{'vqf':>8s}{'ratio':>8s}")
+    found = []
+    for log in logs:
+        moves = np.flatnonzero(moving_rows(log))
+        for after in BEGUN:
+            first = int(np.searchsorted(log.time, log.time[moves[0]] + after))
+            begun = log.slice(first, int(moves[-1]) + 1)
+            known = np.isfinite(begun.ref_q).all(axis=1)
+            gyro, accel = (np.ascontiguousarray(v) for v in (begun.gyro, begun.accel))
+            theirs = peer(log.sample_period).updateBatch(gyro, accel)["quat6D"]
+            rms = [
+                root_mean_square(inclination(q[known], begun.ref_q[known]))
+                for q in (run(begun, magnetometer=False).q, theirs)
+            ]
+            found.append(rms)
+            name = f"{log.name.split('.')[0]}, {after:.0f} s"
+            print(f"{name:52s}{rms[0]:8.3f}{rms[1]:8.3f}{rms[0] / rms[1]:8.3f} {verdict(rms)}")
+    mean = np.mean(found, axis=0)
+    print(f"{'mean':52s}{mean[0]:8.3f}{mean[1]:8.3f}{mean[0] / mean[1]:8.3f} {verdict(mean)}")
 
 
 def _smoothed_row(name: str, rms, claimed: str) -> None:
