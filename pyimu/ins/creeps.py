@@ -8,11 +8,9 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.ins.filtered import Filtered
+from pyimu.ins.shoves import CREEP
 from pyimu.ins.track import Track
 from pyimu.recording.clock import runs
-
-CREEP = 0.05
-"""m/s; of what creeps, at most. Assumed."""
 
 SEEN = 3.0
 """Standard deviations that a creep must have of speed to be called one."""

@@ -19,6 +19,9 @@ from pyimu.recording.clock import runs
 SETTLES = 0.005
 """m/s; speed that a body may have by which it settles after a stop. Assumed."""
 
+CREEP = 0.05
+"""m/s; of what creeps, at most. Assumed."""
+
 LENGTHS = (0.3, 0.45, 0.7, 1.0, 1.5, 2.2)
 """s; of a shove. Of a longer one a force that changes while a body rests hides as much."""
 

@@ -1,5 +1,7 @@
 """Bases that creep at a few centimetres a second, and rests within which a motion begins."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -78,6 +80,48 @@ def test_what_creeps_is_no_rest_and_the_end_is_as_sure_as_it_is_said(seed):
     track = found.tracks["filter"]
     off = track.position[-1, 0] - speed.sum() * H
     assert abs(off) < 4 * track.position_std[-1, 0] < 2.0
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_unit_tells_a_creep_by_its_shoves(seed):
+    """By what came before alone. It counted as rest, 130 standard deviations off at the end. What
+    is missed of a creep is what its shove takes to be seen.
+    """
+    creeps = [part for _ in range(5) for part in (*_creep(0.022), still(8))]
+    log, speed = measured(np.concatenate([still(12), *creeps]), 7630 + seed)
+    found = run(log, method="filter", heading0=0.0, zupt="live")
+    assert np.mean(speed[found.still] > 0.01) < 0.1
+    assert found.still[speed == 0].mean() > 0.6
+    track = found.tracks["filter"]
+    off = track.position[-1, 0] - speed.sum() * H
+    assert abs(off) < 4 * track.position_std[-1, 0] < 3.0
+
+
+@pytest.mark.parametrize("size", (0.02, 0.04))
+def test_the_unit_tells_a_push_that_no_window_shows(size):
+    """For 20 s: half of it, and the cruise after it, counted as rest. Less than 3 s of it is to be
+    seen, and the speed of that time is found."""
+    push = np.concatenate(
+        [still(12), bell(10 * size, 20), still(10), bell(-10 * size, 20), still(8)]
+    )
+    log, speed = measured(push, 7640)
+    found = run(log, method="filter", heading0=0.0, zupt="live")
+    assert not found.still[speed > 10 * size / 2].any()
+    v, std = found.filter.vector("velocity")[:, 0], found.filter.vector("velocity_std")[:, 0]
+    cruise = slice(3200, 4200)
+    assert np.all(np.abs(v - speed)[cruise] < 4 * std[cruise])
+    assert std[cruise].max() < 0.1
+
+
+def test_the_unit_takes_no_flicker_for_a_push():
+    """Minutes of rest, beside forces whose means over a second wander by twice what white noise of
+    their samples makes them."""
+    log, _ = measured(still(200), 7650)
+    slow = np.repeat(np.random.default_rng(7650).standard_normal((200, 3)), 100, axis=0)
+    smooth = [np.convolve(column, np.ones(100) / 100, "same") for column in slow.T]
+    own = 2 * FORCE / 10 * np.column_stack(smooth)
+    found = run(replace(log, accel=log.accel + own), method="filter", zupt="live", heading0=0.0)
+    assert found.still.mean() > 0.95
 
 
 def _creep(speed):

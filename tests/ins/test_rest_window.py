@@ -180,10 +180,10 @@ def test_a_blow_keeps_no_later_rest_out(seed):
     assert (y["at_rest"] > 0.5)[time > 85.0].all()
 
 
-def test_a_body_that_leans_slowly_rests_again():
-    """By 0.1 m/s^2 over 2 s, which the gyro does not show: askew for 10 s, and it stands so."""
+def test_a_force_that_stays_another_is_a_rest_again():
+    """By 0.1 m/s^2 within 2 s, which the gyro does not show: a push, and after two minutes none."""
     part = white(calibrated())
-    unit, n = strapdown_ins(part, nhc=False), 3000
+    unit, n = strapdown_ins(part, nhc=False), 15000
     u = np.tile(unit.start_inputs, (n, 1))
     u[:, 3] += 0.1 * np.clip((np.arange(n) - 800) / 200, 0, 1)
     rng = np.random.default_rng(1)
@@ -191,4 +191,4 @@ def test_a_body_that_leans_slowly_rests_again():
         std = sensor.values["angle_random_walk"]["N"] / np.sqrt(H)
         u[:, 3 * i : 3 * i + 3] += std * rng.standard_normal((n, 3))
     rest = unit.run(u)[0][:, [v.name for v in unit.outputs].index("at_rest")] > 0.5
-    assert rest[50:800].all() and not rest[1000:1500].any() and rest[2300:].all()
+    assert rest[50:800].all() and not rest[1000:12500].any() and rest[13500:].all()

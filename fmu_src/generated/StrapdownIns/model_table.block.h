@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{2f78c7b6-471e-ddc4-8a1f-150693ccf920}"
-#define MODEL_TOKEN_FMI3 "{1c5f1437-c729-a5cb-7413-ff74db1d440c}"
+#define MODEL_TOKEN_FMI2 "{b3ed41e7-e9c9-8b5e-7f20-1c0685866d00}"
+#define MODEL_TOKEN_FMI3 "{3e7e51b5-7a3b-eb0c-bb2e-a96470e67040}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,24 +16,24 @@ enum {
     N_INPUTS = 21,
     N_PARAMETERS = 63,
     N_OUTPUTS = 43,
-    N_STATES = 399,
+    N_STATES = 519,
     N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 79
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 33, WORK_RES = 10, WORK_IW = 0, WORK_W = 2879 };
+enum { WORK_ARG = 33, WORK_RES = 16, WORK_IW = 0, WORK_W = 5140 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 455097 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 382399 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 455097 };
+enum { MODEL_MOST_SAMPLES = 382399 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 455097.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 382399.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

@@ -15,7 +15,7 @@ from pyimu.block.block import Block
 from pyimu.block.plain import plain_function
 from pyimu.block.structured import Structured
 from pyimu.block.variables import Variable
-from pyimu.ins.filter import prediction, updates
+from pyimu.ins.filter import prediction, rest_judged, rest_left, updates
 from pyimu.ins.filter import start as beginning
 from pyimu.ins.filter.layout import (
     BASE,
@@ -125,10 +125,15 @@ def _step(made: Structured[Layout], recorded: bool) -> ca.Function:
     layout = made.of
     sizes = {"s": layout.state, "u": len(layout.inputs), "p": len(layout.parameters), "h": 1}
     s, u, p, h = (ca.MX.sym(name, size) for name, size in sizes.items())
-    x, memory, rate, force, status, rest, unturned, transition = _predict(layout)(s, u, p, h)
+    found = _predict(layout)(s, u, p, h)
+    x, memory, rate, force, status, rest, unturned, slow, *left, transition = found
     n, begun = layout.errors, s[layout.begun]
     starts = ca.logic_and(begun <= 0, memory[layout.begun - layout.packed] > 0)
     x = where(starts, _first(layout), x, memory, p)
+    if layout.detects:
+        both = ca.vertcat(x, transition)
+        both = where(left[0] >= rest_judged.ANEW, _left(layout), both, *left, p)
+        x, transition = both[: layout.packed], both[layout.packed :]
     work = ca.vertcat(x, ca.MX.zeros(REPORT + n))
     nominal_at = {v.name: i for i, v in enumerate(layout.parameters)}
 
@@ -136,7 +141,8 @@ def _step(made: Structured[Layout], recorded: bool) -> ca.Function:
         return p[nominal_at[name]] > 0
 
     still = ca.logic_and(rest > 0.5, begun > 0)
-    work = where(ca.logic_and(still, setting("zupt")), _zupt(layout), work, p)
+    stands = ca.logic_or(still, slow > 0)
+    work = where(ca.logic_and(stands, setting("zupt")), _zupt(layout), work, slow, p, h)
     even = ca.logic_and(ca.logic_and(unturned > 0.5, begun > 0), status <= 0)
     work = where(ca.logic_and(even, setting("zaru")), _zaru(layout), work, rate, p, h)
     if layout.nhc:
@@ -159,7 +165,8 @@ def _step(made: Structured[Layout], recorded: bool) -> ca.Function:
 
 
 def _predict(layout: Layout) -> ca.Function:
-    """``s, u, p, h -> x, memory, rate, force, status, still, unturned, transition``, to updates.
+    """``s, u, p, h -> x, memory, rate, force, status, still, unturned, slow, left, transition``, to
+    updates.
 
     The force is the mean one, empty without wheels.
     """
@@ -172,7 +179,8 @@ def _predict(layout: Layout) -> ca.Function:
     x = layout.unpack(s)
     memory = Memory.unpack(s[layout.packed :], layout)
     sample = prediction.read(layout, memory, x.q, x.gyro_bias, u, settings, h)
-    sample = prediction.with_rest(layout, x, memory, sample, settings, h)
+    measured = u[SPEED_VALID] + u[POSITION_VALID] + u[VELOCITY_VALID] > 0.5
+    sample = prediction.with_rest(layout, x, memory, sample, measured, settings, h)
     after, transition, motion = prediction.predicted(layout, x, memory, sample, settings, h)
     packed = ca.if_else(memory.begun > 0, layout.pack(after), s[: layout.packed])
     kept = prediction.remembered(memory, sample, motion, h).pack()
@@ -181,10 +189,25 @@ def _predict(layout: Layout) -> ca.Function:
         [s, u, p, h],
         [
             *(packed, kept, sample.rate, motion[-1], sample.lost),
-            *(sample.still, sample.unturned, ca.densify(transition[:])),
+            *(sample.still, sample.unturned, sample.slow),
+            *(ca.densify(v) for v in sample.left),
+            ca.densify(transition[:]),
         ],
         OPTIONS,
     )
+
+
+def _left(layout: Layout) -> ca.Function:
+    """``x and transition, left, p -> x and transition`` of a body that has left its rest."""
+    n = layout.errors
+    both = ca.SX.sym("b", layout.packed + n * n)
+    left = [ca.SX.sym(f"a{i}", size) for i, size in enumerate(rest_judged.SIZES)]
+    p = ca.SX.sym("p", len(layout.parameters))
+    x, transition = layout.unpack(both), ca.reshape(both[layout.packed :], n, n)
+    seen, settings = rest_judged.Left(*left), prediction.settings_of(layout, p)
+    change, x, transition = rest_left.corrected(layout, x, transition, seen, settings)
+    out = ca.densify(ca.vertcat(layout.pack(updates.changed(layout, x, change)), transition[:]))
+    return plain_function("left", [both, *left, p], [out], OPTIONS)
 
 
 def _first(layout: Layout) -> ca.Function:
@@ -211,10 +234,11 @@ def _update(layout: Layout, name: str, kind: str, correct: Callable, *sizes: int
 
 
 def _zupt(layout: Layout) -> ca.Function:
-    def correct(x: State, p):
-        return updates.by_zero_velocity(layout, x, prediction.settings_of(layout, p))
+    def correct(x: State, slow, p, h):
+        settings = prediction.settings_of(layout, p)
+        return updates.by_zero_velocity(layout, x, slow, settings, h)
 
-    return _update(layout, "by_zero_velocity", "zupt", correct, len(layout.parameters))
+    return _update(layout, "by_zero_velocity", "zupt", correct, 1, len(layout.parameters), 1)
 
 
 def _zaru(layout: Layout) -> ca.Function:

@@ -11,7 +11,10 @@ import numpy as np
 
 from pyimu.attitude.filter.compensation import Compensation
 from pyimu.block.variables import Variable
-from pyimu.ins.filter import rest_judged, rest_window
+from pyimu.ins.filter import rest_window
+from pyimu.ins.filter.rest_hidden import Hidden
+from pyimu.ins.filter.rest_judged import Judged
+from pyimu.ins.filter.rest_level import Level
 from pyimu.ins.filter.variables import INPUTS, LASTING, OWN_PARAMETERS, WHEELS
 from pyimu.model.part import Part, input_variables
 from pyimu.model.signals import SIGNALS
@@ -206,15 +209,15 @@ class Layout:
     def memory_sizes(self) -> tuple[int, ...]:
         """Of the ``Memory``, in the order of its fields."""
         window = rest_window.SIZE * self.detects
-        judged = rest_judged.SIZE * self.detects
+        of_rests = [kept.size() * self.detects for kept in (Level, Judged, Hidden)]
         pushed = 3 * self.wheels
-        kept = len(self.compensation.start), window, judged
+        kept = len(self.compensation.start), window, *of_rests
         return (self.held, 3, 3, 3, 3, pushed, 1, 3, 3, 1, *kept)
 
     @property
     def begun(self) -> int:
         """Where the state has ``Memory.begun``."""
-        return self.packed + sum(self.memory_sizes[:-4])
+        return self.packed + sum(self.memory_sizes[:-6])
 
     @property
     def state(self) -> int:
@@ -256,8 +259,9 @@ class Memory:
     axes the velocity that counts (``weight``); ``mean_force`` (3,) in body axes that of the time by
     which a measured speed may be late, empty without wheels; ``unturned`` whether it did not turn;
     ``gyro_lost`` and ``accel_lost`` (3,) s, for how long an axis was lost; ``begun`` whether there
-    was any row; ``sensors`` is the compensation's own; ``window`` and ``judged`` are
-    those of ``rest_window`` and ``rest_judged``, empty where the filter does not look for rests.
+    was any row; ``sensors`` is the compensation's own; ``window``, ``level``,
+    ``judged`` and ``hidden`` are those of ``rest_window`` to ``rest_hidden``, empty where the
+    filter does not look for rests.
     """
 
     held: ca.SX
@@ -272,7 +276,9 @@ class Memory:
     begun: ca.SX
     sensors: ca.SX
     window: ca.SX
+    level: ca.SX
     judged: ca.SX
+    hidden: ca.SX
 
     def pack(self) -> ca.SX:
         return ca.densify(ca.vertcat(*vars(self).values()))

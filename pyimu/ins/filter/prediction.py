@@ -37,7 +37,7 @@ from dataclasses import dataclass, replace
 import casadi as ca
 
 from pyimu.attitude.filter.settings import Settings
-from pyimu.ins.filter import rest_judged, rest_window
+from pyimu.ins.filter import rest_judged, rest_level, rest_window
 from pyimu.ins.filter.layout import (
     BASE,
     GYRO_BIAS,
@@ -53,6 +53,8 @@ from pyimu.ins.filter.layout import (
     State,
 )
 from pyimu.ins.filter.mechanisation import moved, turned
+from pyimu.ins.filter.rest_hidden import Hidden
+from pyimu.ins.filter.rest_judged import Judged
 from pyimu.ins.filter.variables import (
     ACCEL,
     GYRO,
@@ -106,8 +108,10 @@ class Sample:
     and ``force`` (3,) without the part's errors; which axes of gyro and accelerometer (3,) are
     ``lost``, 0 or 1, and which have a number (``rate_there``, ``force_there``): the lost ones among
     them are beyond their range; whether the body is at rest (``still``), does not turn
-    (``unturned``), or is now seen to have ``left`` a rest; whether its position is measured
-    (``placed``); the compensation's memory, the window's, and what judges it.
+    (``unturned``), or is now seen to have ``left`` a rest; the square of the speed of a drive of
+    which no more is known than that it is ``slow``, else 0, and what variance of the position a
+    rest ``hides``; whether its position is measured (``placed``); the compensation's memory, the
+    window's, and what judges it.
     """
 
     held: ca.SX
@@ -119,11 +123,15 @@ class Sample:
     force_there: ca.SX
     still: ca.SX
     unturned: ca.SX
-    left: ca.SX
+    left: rest_judged.Left
+    slow: ca.SX
+    hides: ca.SX
     placed: ca.SX
     sensors: ca.SX
     window: ca.SX
+    level: ca.SX
     judged: ca.SX
+    hidden: ca.SX
 
     @property
     def lost(self):
@@ -169,35 +177,41 @@ def read(layout: Layout, memory: Memory, q, bias, u, settings: Settings, h) -> S
     accel_lost = 1 - good[ACCEL] * (ca.densify(accel_lost) <= 0.5)
     still = is_finite(u[STATIONARY]) * (u[STATIONARY] > 0.5)
     rate = bias + fades * (rate - bias)
-    kept = sensors, memory.window, memory.judged
-    none, placed = ca.SX(0), u[POSITION_VALID] > 0.5
+    kept = sensors, memory.window, memory.level, memory.judged, memory.hidden
+    placed = u[POSITION_VALID] > 0.5
     there = good[ACCEL] * (memory.accel_lost < SHOCK)
     lost = gyro_lost, accel_lost, good[GYRO], there
-    return Sample(held, rate, force, *lost, still, still, none, placed, *kept)
+    nothing = rest_judged.NOTHING, ca.SX(0), ca.SX(0)
+    return Sample(held, rate, force, *lost, still, still, *nothing, placed, *kept)
 
 
 def with_rest(
-    layout: Layout, x: State, memory: Memory, sample: Sample, settings: Settings, h
+    layout: Layout, x: State, memory: Memory, sample: Sample, measured, settings: Settings, h
 ) -> Sample:
-    """The sample with what the window says of rest, where the filter looks for it."""
+    """The sample with what the window says of rest, where the filter looks for it; ``measured``
+    says whether a position, a velocity or a speed is, 0 or 1.
+    """
     if not layout.detects:
         return sample
     found = rest_window.followed(memory.window, sample.rate, sample.force, sample.lost, settings, h)
     back = quaternion.to_matrix(quaternion.conjugate(x.q))
     of_bias = back @ x.covariance[GYRO_BIAS, GYRO_BIAS] @ back.T
     even = rest_window.is_no_turn(found, back @ settings.earth + x.gyro_bias, of_bias, settings, h)
-    asked = settings.scalar["detect"] > 0
-    looks = asked * memory.begun * found.alike * even
-    before = rest_judged.Judged.unpack(memory.judged)
-    rate = sample.rate - x.gyro_bias
+    looks = (settings.scalar["detect"] > 0) * memory.begun * found.alike * even
+    before, rate = Judged.unpack(memory.judged), sample.rate - x.gyro_bias
+    parts = rest_level.Level.unpack(memory.level), rate, sample.force, sample.lost
+    slow = rest_level.followed(*parts, before.kept * (before.driven <= 0), settings, h)
     motion = rest_judged.Motion(x.velocity, x.covariance[VELOCITY, VELOCITY], x.q)
-    still, left, after = rest_judged.judged(
-        before, motion, found, looks, sample.still, rate, settings, h
-    )
+    seen = rest_judged.Seen(found, slow, looks, sample.still, rate)
+    verdict, after, level = rest_judged.judged(before, motion, seen, settings, h)
+    alone = verdict.rest * (1 - sample.still)
+    hidden = Hidden.unpack(memory.hidden)
+    hidden, hides = hidden.after(verdict.ends, alone, measured, h)
     # A drive that looks still does not turn either.
-    unturned = ca.fmax(still, looks)
-    kept = {"window": found.memory, "judged": after.pack()}
-    return replace(sample, still=still, unturned=unturned, left=left, **kept)
+    unturned = ca.fmax(verdict.rest, looks)
+    kept = {"window": found.memory, "level": level.pack(), "judged": after.pack()}
+    kept |= {"hidden": hidden.pack(), "left": verdict.left, "slow": verdict.slow, "hides": hides}
+    return replace(sample, still=verdict.rest, unturned=unturned, **kept)
 
 
 def without_gains(layout: Layout, x: State, kind: str, measured):
@@ -257,9 +271,11 @@ def predicted(
     both[UP, UP] = both[UP, UP] + _bending(x.covariance, both, settings)
     both[PLANE, PLANE] = both[PLANE, PLANE] + h * _bow(x, step)
     if layout.detects:
+        both[PLANE, PLANE] = both[PLANE, PLANE] + sample.hides * ca.SX.eye(2)
         # What a push did before it was seen: a speed, and a part of it taken for a bias.
+        moves = sample.left.kind == rest_judged.MOVED
         for place, size in ((VELOCITY, LEAST_SPEED), (RESTING, FORCE_STAYS)):
-            both[place, place] = both[place, place] + sample.left * size**2 * ca.SX.eye(3)
+            both[place, place] = both[place, place] + moves * size**2 * ca.SX.eye(3)
     covariance = symmetric(layout.errors, lambda i, j: both[i, j])
     moves = {"q": q, "velocity": velocity, "position": position, "resting": resting}
     x = _faded(layout, replace(x, **moves, covariance=covariance), fades)
@@ -513,7 +529,7 @@ def remembered(memory: Memory, sample: Sample, motion: tuple, h) -> Memory:
     force = ca.if_else(sample.blind, memory.force, sample.force)
     begun = ca.fmax(memory.begun, 1 - ca.mmax(sample.accel_lost))
     gone = _gone_for(memory, sample, h)
-    kept = sample.sensors, sample.window, sample.judged
+    kept = sample.sensors, sample.window, sample.level, sample.judged, sample.hidden
     unturned = sample.unturned
     return Memory(sample.held, sample.rate, force, *motion, unturned, *gone, begun, *kept)
 
@@ -535,5 +551,5 @@ def empty(layout: Layout, settings: Settings) -> Memory:
         ca.SX(0),
         ca.SX(ca.DM(layout.compensation.start)),
         ca.SX.zeros(rest_window.SIZE * layout.detects),
-        ca.SX.zeros(rest_judged.SIZE * layout.detects),
+        *(ca.SX.zeros(kept.size() * layout.detects) for kept in (rest_level.Level, Judged, Hidden)),
     )

@@ -34,6 +34,10 @@ BY_CHANCE = 1.5e-5
 """Probability with which a right measurement is above its gate, that of the attitude filter's."""
 
 
+SLOW = 10.0
+"""s; for which the speed of a slow drive is taken to stay the same. Assumed."""
+
+
 def gate(freedom: int) -> float:
     """Normalised innovation squared above which a measurement is weighed down."""
     return float(chi2.isf(BY_CHANCE, freedom))
@@ -102,15 +106,17 @@ def _slope(layout: Layout, rows: int, **parts) -> ca.SX:
     return out
 
 
-def by_zero_velocity(layout: Layout, x: State, settings: Settings) -> tuple:
+def by_zero_velocity(layout: Layout, x: State, slow, settings: Settings, h) -> tuple:
     """A body at rest: v = 0 (zero-velocity update; Groves 2013, section 15.3.1).
 
     It has no velocity in its own axes either, R^T v + R^T e with the errors of ``prediction``: in
     that form no attitude is in it. With the velocity in world axes, v + e + phi x v, a wrong
-    velocity would tell of the yaw.
+    velocity would tell of the yaw. A body that drives slowly, as far as is known with the mean
+    square ``slow`` m^2/s^2 (0 at rest), is told so once in ``SLOW`` s.
     """
     slope = _slope(layout, 3, velocity=ca.SX.eye(3))
-    noise = settings.scalar["zupt_std"] ** 2 * ca.SX.ones(3)
+    noise = ca.fmax(settings.scalar["zupt_std"] ** 2, slow * SLOW * reciprocal(h))
+    noise = noise * ca.SX.ones(3)
     return corrected_by(layout, x, -x.velocity, slope, noise, settings)
 
 
