@@ -1,5 +1,5 @@
 """Errors that no effect describes, and, but for one or two, no formula of signals at one instant:
-what has a memory, a phase that drifts, or follows the slope of a signal.
+what has a memory, a phase or a size that wanders, stairs, or follows the slope of a signal.
 """
 
 from __future__ import annotations
@@ -60,6 +60,82 @@ def warm_cross(x, case: Case):
     return x + (case.scene.warmth - T0)[:, None] * product * case.c
 
 
+def wandering_line(x, case: Case):
+    """Periodic in time, at a frequency that wanders about a mean, as a motor's that nobody logs."""
+    slow = _wandering(case, case.form["over"])[:, 0]
+    cycles = np.cumsum(case.form["hz"] * (1.0 + 0.2 * slow)) * case.scene.h
+    return x + np.sin(2 * np.pi * cycles)[:, None] * case.c
+
+
+def wandering_gain(x, case: Case):
+    """A gain that wanders by chance, each axis's by itself."""
+    share = _wandering(case, case.form["over"])
+    return x + share * case.scene.own(case.kind) * case.c
+
+
+def play(x, case: Case):
+    """What the force leaves of itself behind play: it must go back by so much to be seen."""
+    force, half = np.roll(case.scene.force, -1, axis=1), case.form["half"]
+    out = np.array(force)
+    for axis in range(3):
+        seen = force[0, axis]
+        for k, value in enumerate(force[:, axis]):
+            seen = min(max(seen, value - half), value + half)
+            out[k, axis] = seen
+    return x + out * case.c
+
+
+def stairs(x, case: Case):
+    """A bias that steps with the temperature, as a table of few entries leaves it."""
+    return x + np.floor(case.scene.warmth / case.form["step"])[:, None] * case.c
+
+
+def rubbing(x, case: Case):
+    """What the next axis's turns bend until it slips, and bend back (Dahl 1968)."""
+    rate, bend = np.roll(case.scene.rate, -1, axis=1), np.zeros(3)
+    out = np.empty_like(rate)
+    for k, w in enumerate(rate):
+        bend = bend + case.scene.h * (w - np.abs(w) * bend / case.form["slip"])
+        out[k] = bend
+    return x + out * case.c
+
+
+def cable(x, case: Case):
+    """A bias that is another at each angle turned, as a cable that is dragged along pulls."""
+    turned = np.cumsum(np.linalg.norm(case.scene.rate, axis=1)) * case.scene.h
+    at = np.arange(0.0, turned[-1] + 10.0, 2.0)
+    pulls = case.rng.standard_normal((len(at), 3))
+    return x + np.column_stack([np.interp(turned, at, p) for p in pulls.T]) * case.c
+
+
+def _wandering(case: Case, seconds: float) -> np.ndarray:
+    """Random numbers (n, 3) of variance one that change over so many seconds."""
+    pole = np.exp(-case.scene.h / seconds)
+    draw = case.rng.standard_normal((len(case.scene.time) + 1, 3))
+    gain = [np.sqrt(1 - pole**2)]
+    return lfilter(gain, [1, -pole], draw[1:], axis=0, zi=pole * draw[:1])[0]
+
+
+def _line(rng, scene):
+    return {"hz": float(rng.uniform(0.05, 0.5)), "over": float(rng.uniform(20.0, 100.0))}
+
+
+def _over(rng, scene):
+    return {"over": float(rng.uniform(20.0, 200.0))}
+
+
+def _half(rng, scene):
+    return {"half": float(rng.uniform(0.5, 2.0))}
+
+
+def _step(rng, scene):
+    return {"step": float(rng.uniform(1.0, 3.0))}
+
+
+def _slip(rng, scene):
+    return {"slip": float(rng.uniform(0.1, 0.5))}
+
+
 def _drift(rng, scene):
     return {"order": int(rng.integers(1, 4)), "period": float(rng.uniform(40.0, 150.0))}
 
@@ -80,4 +156,10 @@ TERMS = (
     _term(droop, ("gyro",), needs=("supply",), motions=ROTATING),
     _term(reseated),
     _term(warm_cross, motions=("tumble",)),
+    _term(wandering_line, form=_line),
+    _term(wandering_gain, form=_over, motions=ROTATING),
+    _term(play, form=_half, motions=("tumble",)),
+    _term(stairs, form=_step),
+    _term(rubbing, form=_slip, motions=ROTATING),
+    _term(cable, motions=ROTATING),
 )

@@ -21,6 +21,7 @@ from pyimu.identification.fit.reduction import STRUCTURE
 from pyimu.identification.fit.structure import prior_of
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.trials import accel_trial, gyro_trial
+from pyimu.identification.formula.constancy import less_inconstant
 from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.memory import less_than_memory, remembered
 from pyimu.identification.formula.search import Look, look
@@ -279,8 +280,14 @@ def _looked(
         found = Look(inv)
     if found.formula is not None or inv.after.is_reduced:
         return found
-    left = less_than_memory(found.investigation)
-    return replace(found, investigation=left, memory=remembered(left.after))
+    constant = less_inconstant(less_than_memory(found.investigation))
+    left = constant.investigation
+    return replace(
+        found,
+        investigation=left,
+        memory=remembered(left.after),
+        inconstant=constant.unexplained,
+    )
 
 
 def _random(start: Part, kind: str) -> frozenset[str]:

@@ -255,8 +255,9 @@ def _unexplained(
     rounded: Collection[str], looks: Mapping[str, Look], noises: Mapping[str, Noise]
 ) -> tuple[Unexplained, ...]:
     """What no effect accounts for, but of sensors whose reference's rounding looks like it."""
-    of_inputs = tuple(k.unexplained for n, k in looks.items() if k.unexplained and n not in rounded)
-    return of_inputs + tuple(s for k, n in noises.items() if k not in rounded for s in n.shapes)
+    of = [(looks[k], noises[k]) for k in looks if k in noises and k not in rounded]
+    of_inputs = tuple(k.unexplained for k, _ in of if k.unexplained)
+    return of_inputs + tuple(s for k, n in of for s in (*k.inconstant, *n.shapes))
 
 
 def _rounded(found: Found) -> set[str]:

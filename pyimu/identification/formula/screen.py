@@ -36,8 +36,9 @@ UNEXPLAINED = 1e-3
 
 @dataclass(frozen=True)
 class Scored:
-    """A term, its gain [nat] less penalties, the axes on which it explains anything, and the
-    smallest p-value of an axis, of this one trial.
+    """A term, its gain [nat] less penalties, the axes on which it explains anything, the smallest
+    p-value of an axis, of this one trial, and the ``excess`` [nat] of what it explains on all axes
+    over what chance does.
     """
 
     term: Term
@@ -45,6 +46,7 @@ class Scored:
     axes: tuple[int, ...]
     p_value: float
     axis: int
+    excess: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -124,7 +126,7 @@ def _chunks(terms: Sequence[Term]) -> Iterator[list[Term]]:
 
 
 def _scored(term: Term, projected: Projected, at: dict[Shape, int]) -> Scored:
-    total, axes, best = 0.0, [], (1.0, 0)
+    total, excess, axes, best = 0.0, 0.0, [], (1.0, 0)
     for i in range(3):
         columns = [at[k] for n in range(len(term.code)) if (k := Shape(term.text, n, i)) in at]
         columns = [c for c in columns if projected.gram[c, c] > 0]
@@ -135,10 +137,11 @@ def _scored(term: Term, projected: Projected, at: dict[Shape, int]) -> Scored:
         if 0.5 * power > PENALTY:
             power /= _dispersion(projected, columns)
         best = min(best, (float(chdtrc(len(columns), power)), i))
+        excess += 0.5 * (power - len(columns))
         if 0.5 * power > PENALTY * len(columns):
             total += 0.5 * power - PENALTY * len(columns)
             axes.append(i)
-    return Scored(term, total, tuple(axes), *best)
+    return Scored(term, total, tuple(axes), *best, excess)
 
 
 def _dispersion(projected: Projected, columns: list[int]) -> float:

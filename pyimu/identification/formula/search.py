@@ -82,14 +82,15 @@ Done = dict[frozenset[tuple[str, tuple[int, ...]]], tuple[Found | None, Chosen]]
 
 @dataclass(frozen=True)
 class Look:
-    """What was made of what an investigation left; ``memory`` is what this remembers of the motion,
-    where no formula was found.
+    """What was made of what an investigation left; where no formula was found, ``memory`` is what
+    this remembers of the motion, and ``inconstant`` what comes of effects that are no constants.
     """
 
     investigation: Investigation
     formula: Formula | None = None
     unexplained: Unexplained | None = None
     memory: Remembered | None = None
+    inconstant: tuple[Unexplained, ...] = ()
 
 
 def look(

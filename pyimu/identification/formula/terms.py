@@ -272,6 +272,16 @@ def library(kind: str, trials: tuple[Trial, ...]) -> list[Term]:
     return list({t.text: t for t in terms}.values())
 
 
+def simple(kind: str, trials: tuple[Trial, ...]) -> list[Term]:
+    """Numbers that move, their sizes, and harmonics of angles: what a residual may follow by a
+    share that is no constant.
+    """
+    moving, own = usable(trials), KINDS[kind].own
+    vectors = [n for n in ("rate", "specific_force", "mag", *SLOPES) if n in moving]
+    numbers = [_single(n, i, own) for n in vectors for i in moving[n]]
+    return [*(_product((f,)) for f in numbers), *map(_absolute, numbers), *_harmonics(moving)]
+
+
 def _product(factors: tuple[Factor, ...]) -> Term:
     powers = {f: factors.count(f) for f in factors}
     raised = [(f, f"^{n}" if n > 1 else "", f" ** {n}" if n > 1 else "") for f, n in powers.items()]

@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from pyimu.identification.fit.fit import Fit
 from pyimu.identification.formula.memory import Remembered
 from pyimu.identification.formula.search import Look
+from pyimu.identification.formula.wandering import wandering
 from pyimu.identification.found.entries import Added
 from pyimu.identification.model.model_of import Found, Model
 from pyimu.identification.noise.named import Noise, noise_of
@@ -24,6 +26,7 @@ from pyimu.model.part import Part
 
 MORE_THAN_NOISE = "kinds of noise are told apart only where nothing else is left"
 REMEMBERED = "what is left follows the motion, with a memory of it"
+FOLLOWED = "what is left follows a signal by a share that wanders"
 AS_FORM = "what noise was found is no more than the form of an effect may leave"
 
 
@@ -32,12 +35,25 @@ def noises_of(
 ) -> dict[str, Noise]:
     """What is random in what each sensor leaves, told apart where the references fit."""
     return {
-        kind: _unless_remembered(
-            _beside_digits(start, inv, model, len(found), fits and _is_noise(inv, looks[kind])),
-            looks[kind].memory,
+        kind: _unless_wandering(
+            _unless_remembered(
+                _beside_digits(start, inv, model, len(found), fits and _is_noise(inv, looks[kind])),
+                looks[kind].memory,
+            ),
+            inv.after,
+            (kind, *WALK) in start.estimate,
         )
         for kind, inv in found.items()
     }
+
+
+def _unless_wandering(noise: Noise, fit: Fit, is_open: bool) -> Noise:
+    """What is random in a residual, or what this follows by a share that wanders: that is slow as
+    noise is, and random, and no noise. A walk whose size is left ``is_open`` takes it, too.
+    """
+    if not (noise.added or noise.drift or is_open) or not (followed := wandering(fit)):
+        return noise
+    return Noise(shapes=followed, unasked=FOLLOWED)
 
 
 def _unless_remembered(noise: Noise, memory: Remembered | None) -> Noise:
@@ -104,4 +120,5 @@ def _is_noise(inv: Investigation, look: Look) -> bool:
     if any(CATALOGUE[s.effect].stage == "output" for s in inv.steps):
         return False
     clocks = [t.clock for t in inv.after.trials if t.clock is not None and t.clock.is_seen]
-    return look.unexplained is None and all(c.is_steady for c in clocks)
+    known = look.unexplained is not None or bool(look.inconstant)
+    return not known and all(c.is_steady for c in clocks)

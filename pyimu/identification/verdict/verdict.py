@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pyimu.identification.fit.score import WINDOW
+from pyimu.identification.formula.constancy import REST
 from pyimu.identification.found.entries import Added, Changed, Errors
 from pyimu.identification.search.forward import AS_NOISE, AS_ROUNDING, Refused
 from pyimu.identification.search.judge import OF_REFERENCE
@@ -122,7 +123,7 @@ def _verdict(e: Evidence) -> Verdict:
         return Verdict("unexplained", why, (left,) if left else ())
     if e.added:
         names = ", ".join(f"{a.sensor} {a.effect}" for a in e.added)
-        if left or shapes:
+        if left or any(_is_much(u, e.added) for u in e.unexplained):
             return Verdict("partly", names, (left,) if left else ())
         return Verdict("named", names, tuple(filter(None, [open_of(e)])))
     if shapes:
@@ -144,6 +145,16 @@ def _verdict(e: Evidence) -> Verdict:
         why = "more random walk than declared, and nothing logged that it is seen to follow"
         return Verdict("drift", why, instead(e.changed))
     return _nothing_found(e, left)
+
+
+def _is_much(u: Unexplained, added: Iterable[Added]) -> bool:
+    """Whether what no effect accounts for has a shape, or explains as much as ``REST`` of what the
+    effects of its sensor do.
+    """
+    if u.shape:
+        return True
+    known = sum(a.gain for a in added if a.sensor == u.sensor)
+    return 0.5 * float(chi2.isf(u.p_value, 1)) > REST * known
 
 
 def _of_force(effect: str) -> bool:

@@ -1,0 +1,213 @@
+"""Whether a named effect is the same everywhere in the logs, as an effect of a sensor is.
+
+An error that has no name is given that of the effect which it resembles most. What tells them apart
+is that an effect's coefficients are constants: its share of the output, times slow functions of
+time, drawn as another function of itself, or as it was a while ago, explains nothing more. Nyblom
+(1989), "Testing for the constancy of parameters over time", JASA 84, asks the first of these of any
+regression; all three are asked here as terms of a formula are, whitened, beside the model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyimu.identification.fit.columns import in_log
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.inputs import before, reference_input
+from pyimu.identification.fit.keys import Shape
+from pyimu.identification.fit.limited import without_limit
+from pyimu.identification.fit.response import predict
+from pyimu.identification.fit.trial import Trial
+from pyimu.identification.formula.memory import low_passed
+from pyimu.identification.formula.screen import UNEXPLAINED, Scored, scored
+from pyimu.identification.formula.terms import Term
+from pyimu.identification.search.forward import Investigation, Step, without
+from pyimu.identification.search.inexact import left_by_forms
+from pyimu.identification.search.leftover import Unexplained
+from pyimu.model.arguments import AXES
+from pyimu.model.catalogue import CATALOGUE
+from pyimu.model.sensor import Sensor
+
+SLOW = 6
+"""Half waves over all logs of the fastest change in time: a minute's in ten minutes of logs."""
+
+BENT = 12
+"""Half waves over the range of an effect's share of the output: six stairs."""
+
+AGO = (0.3, 1.0, 3.0, 10.0)
+"""s; over which a share of the output is remembered."""
+
+ENDS = (0.005, 0.995)
+"""Quantiles of a share of the output between which it is bent."""
+
+ANOTHER = 0.25
+"""Share of what an effect explains from which on what its inconstancy does makes another error of
+it: half of its amplitude."""
+
+
+REST = 0.05
+"""Share of it from which on it is said: less than a fifth of its amplitude is a matter of form."""
+
+
+@dataclass(frozen=True)
+class Variation(Term):
+    """The columns of an ``effect`` that is inconstant in one ``way``."""
+
+    effect: str = ""
+    way: str = ""
+
+
+WAYS: Mapping[str, int] = {
+    "of another size from minute to minute": 2 * SLOW,
+    "not in proportion to what drives it": BENT,
+    "with a memory of what went before": 2 + 2 * len(AGO),
+}
+"""How an effect may be inconstant, and how many columns tell."""
+
+
+@dataclass(frozen=True)
+class Constancy:
+    """An investigation less what only resembled its effects, and what is ``unexplained`` by it."""
+
+    investigation: Investigation
+    unexplained: tuple[Unexplained, ...] = ()
+
+
+def less_inconstant(inv: Investigation) -> Constancy:
+    """An investigation less each effect that is another from minute to minute, is bent, or has a
+    memory, by so much that it is not what it is called; with what is inconstant in any.
+    """
+    seen: dict[str, Unexplained] = {}
+    while (worst := _least_constant(inv, set(seen))) is not None:
+        step, found, share = worst
+        way, taken_back = found.term.way, share > ANOTHER
+        like = f"an error like {step.effect}, but" if taken_back else f"a rest of {step.effect},"
+        axis, kind = AXES[found.axis], inv.after.sensor.kind
+        seen[step.effect] = Unexplained(kind, axis, (), found.p_value, f"{like} {way}")
+        if taken_back:
+            inv = without(inv, step.effect, f"it is {way}")
+    return Constancy(inv, tuple(seen.values()))
+
+
+def _least_constant(inv: Investigation, known: set[str]) -> tuple[Step, Scored, float] | None:
+    """The effect that is inconstant most clearly but for those ``known``, how, and which share of
+    its gain that explains; None where all are constant.
+    """
+    if inv.after.is_reduced:
+        return None
+    steps = {s.effect: s for s in inv.steps if _is_asked(s) and s.effect not in known}
+    declared = inv.after.as_declared()
+    # By the noise that the residual shows, too: one that wanders follows any slow column by chance.
+    fits = (inv.after,) if declared is inv.after else (declared, inv.after)
+    if not steps:
+        return None
+    first, *rest = (_found(f, list(steps)) for f in fits)
+    less_clear = [max([s, *(r[t] for r in rest if t in r)], key=_chance) for t, s in first.items()]
+    clear = [s for s in less_clear if _chance(s) * len(AXES) * len(less_clear) < UNEXPLAINED]
+    of_form = left_by_forms(inv.after, inv.steps)
+    for found in sorted(clear, key=_chance):
+        step = steps[found.term.effect]
+        if found.excess > max(REST * step.gain, of_form):
+            return step, found, found.excess / step.gain
+    return None
+
+
+def _chance(found: Scored) -> float:
+    return found.p_value
+
+
+def _is_asked(step: Step) -> bool:
+    """Whether an effect has a share of the output of its own: one that was declared has been seen
+    in other logs, and what samples show beyond squares is no matter of size.
+    """
+    return not (step.declared or step.as_sampled or CATALOGUE[step.effect].stochastic)
+
+
+def _found(fit: Fit, effects: Sequence[str]) -> dict[str, Scored]:
+    """By text what each way in which each effect may be inconstant explains beside a model."""
+    shares = {e: _Share.of(fit, e) for e in effects}
+
+    def columns_of(kind: str, terms: Sequence[Variation]) -> Callable:
+        def add_all(trial: Trial, u: np.ndarray, add: Callable) -> None:
+            for term in terms:
+                for i in range(3):
+                    for n, column in enumerate(shares[term.effect].columns(term.way, trial, i)):
+                        add(Shape(term.text, n, i), i, column)
+
+        return add_all
+
+    terms = [_variation(e, way) for e in effects for way in WAYS]
+    return {s.term.text: s for s in scored(fit, terms, columns_of).terms}
+
+
+def _variation(effect: str, way: str) -> Variation:
+    columns = ("",) * WAYS[way]
+    text = f"{effect} {way}"
+    return Variation(text, columns, columns, columns, frozenset(), 1, effect=effect, way=way)
+
+
+@dataclass(frozen=True)
+class _Share:
+    """What an effect adds to the output, by log (n, 3), the ``ends`` (2, 3) of its range, and by
+    log the time [0..1] that has passed in all logs, one after another.
+    """
+
+    added: Mapping[str, np.ndarray]
+    ends: np.ndarray
+    passed: Mapping[str, np.ndarray]
+
+    @classmethod
+    def of(cls, fit: Fit, effect: str) -> _Share:
+        added = {t.name: _added(fit, t, effect) for t in fit.trials}
+        ends = np.quantile(np.concatenate(list(added.values())), ENDS, axis=0)
+        return cls(added, ends, _passed(fit.trials))
+
+    def columns(self, way: str, trial: Trial, axis: int) -> Iterator[np.ndarray]:
+        """The columns (n,) of one way in which it may be inconstant on an axis."""
+        share = self.added[trial.name][:, axis]
+        if not share.any():
+            return
+        change = np.gradient(share, trial.h)
+        in_time, bent, _ = WAYS
+        if way == in_time:
+            # Times its rate, too: that of a line, and what is late, is another phase.
+            for wave in _waves(self.passed[trial.name], SLOW):
+                yield share * wave
+                yield change * wave
+        elif way == bent:
+            low, high = self.ends[:, axis]
+            if high > low:
+                yield from _waves(np.clip((share - low) / (high - low), 0.0, 1.0), BENT)
+        else:
+            yield change
+            yield share * np.sign(change)
+            for seconds in AGO:
+                yield low_passed(share, trial.h / seconds)
+                yield low_passed(np.abs(share), trial.h / seconds)
+
+
+def _waves(x: np.ndarray, count: int) -> Iterator[np.ndarray]:
+    """Cosines of 1 to ``count`` half waves over a range of numbers from 0 to 1."""
+    return (np.cos(np.pi * k * x) for k in range(1, count + 1))
+
+
+def _added(fit: Fit, trial: Trial, effect: str) -> np.ndarray:
+    """What an effect adds (n, 3) to the output of a model."""
+    state = fit.states[trial.name]
+    u, earlier = reference_input(trial, state), before(trial, state)
+    sensor = without_limit(in_log(fit.sensor, state), trial)[0]
+
+    def output(one: Sensor) -> np.ndarray:
+        return predict(one, u, trial.segments, trial.h, earlier)
+
+    return output(sensor) - output(sensor.without(effect))
+
+
+def _passed(trials: Sequence[Trial]) -> dict[str, np.ndarray]:
+    lengths = np.array([t.time[-1] - t.time[0] + t.h for t in trials])
+    begins = np.cumsum(lengths) - lengths
+    every = zip(trials, begins, strict=True)
+    return {t.name: (at + t.time - t.time[0]) / lengths.sum() for t, at in every}
