@@ -278,14 +278,16 @@ def _looked(
     found = look(inv, partial(_again, inv, prior), say)
     if formula_less_than_noise(inv, found, random):
         found = Look(inv)
-    if found.formula is not None or inv.after.is_reduced:
+    if inv.after.is_reduced:
         return found
-    constant = less_inconstant(less_than_memory(found.investigation))
-    left = constant.investigation
+    formula, left = found.formula, found.investigation
+    left = less_than_memory(left) if formula is None else left
+    constant = less_inconstant(left, formula.name if formula else "")
+    memory = remembered(constant.investigation.after) if formula is None else None
     return replace(
         found,
-        investigation=left,
-        memory=remembered(left.after),
+        investigation=constant.investigation,
+        memory=memory,
         inconstant=constant.unexplained,
     )
 

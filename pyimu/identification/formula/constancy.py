@@ -76,12 +76,13 @@ class Constancy:
     unexplained: tuple[Unexplained, ...] = ()
 
 
-def less_inconstant(inv: Investigation) -> Constancy:
+def less_inconstant(inv: Investigation, formula: str = "") -> Constancy:
     """An investigation less each effect that is another from minute to minute, is bent, or has a
-    memory, by so much that it is not what it is called; with what is inconstant in any.
+    memory, by so much that it is not what it is called; with what is inconstant in any. A
+    ``formula`` is not asked: it has no name that would say more than it does.
     """
     seen: dict[str, Unexplained] = {}
-    while (worst := _least_constant(inv, set(seen))) is not None:
+    while (worst := _least_constant(inv, {formula, *seen})) is not None:
         step, found, share = worst
         way, taken_back = found.term.way, share > ANOTHER
         like = f"an error like {step.effect}, but" if taken_back else f"a rest of {step.effect},"
