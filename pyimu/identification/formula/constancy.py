@@ -83,19 +83,19 @@ def less_inconstant(inv: Investigation, formula: str = "") -> Constancy:
     """
     seen: dict[str, Unexplained] = {}
     while (worst := _least_constant(inv, {formula, *seen})) is not None:
-        step, found, share = worst
+        step, found, share, trials = worst
         way, taken_back = found.term.way, share > ANOTHER
         like = f"an error like {step.effect}, but" if taken_back else f"a rest of {step.effect},"
-        axis, kind = AXES[found.axis], inv.after.sensor.kind
-        seen[step.effect] = Unexplained(kind, axis, (), found.p_value, f"{like} {way}")
+        axis, kind, chance = AXES[found.axis], inv.after.sensor.kind, found.p_value * trials
+        seen[step.effect] = Unexplained(kind, axis, (), chance, f"{like} {way}")
         if taken_back:
             inv = without(inv, step.effect, f"it is {way}")
     return Constancy(inv, tuple(seen.values()))
 
 
-def _least_constant(inv: Investigation, known: set[str]) -> tuple[Step, Scored, float] | None:
-    """The effect that is inconstant most clearly but for those ``known``, how, and which share of
-    its gain that explains; None where all are constant.
+def _least_constant(inv: Investigation, known: set[str]) -> tuple[Step, Scored, float, int] | None:
+    """The effect that is inconstant most clearly but for those ``known``, how, which share of its
+    gain that explains, and how many were asked on how many axes; None where all are constant.
     """
     if inv.after.is_reduced:
         return None
@@ -107,12 +107,13 @@ def _least_constant(inv: Investigation, known: set[str]) -> tuple[Step, Scored, 
         return None
     first, *rest = (_found(f, list(steps)) for f in fits)
     less_clear = [max([s, *(r[t] for r in rest if t in r)], key=_chance) for t, s in first.items()]
-    clear = [s for s in less_clear if _chance(s) * len(AXES) * len(less_clear) < UNEXPLAINED]
+    trials = len(AXES) * len(less_clear)
+    clear = [s for s in less_clear if _chance(s) * trials < UNEXPLAINED]
     of_form = left_by_forms(inv.after, inv.steps)
     for found in sorted(clear, key=_chance):
         step = steps[found.term.effect]
         if found.excess > max(REST * step.gain, of_form):
-            return step, found, found.excess / step.gain
+            return step, found, found.excess / step.gain, trials
     return None
 
 
