@@ -84,7 +84,9 @@ def less_inconstant(inv: Investigation, formula: str = "") -> Constancy:
     seen: dict[str, Unexplained] = {}
     while (worst := _least_constant(inv, {formula, *seen})) is not None:
         step, found, share, trials = worst
-        way, taken_back = found.term.way, share > ANOTHER
+        # A lag of another order, or beside a clock that slips, is a lag all the same.
+        is_form = CATALOGUE[step.effect].stage == "dynamics"
+        way, taken_back = found.term.way, share > ANOTHER and not is_form
         like = f"an error like {step.effect}, but" if taken_back else f"a rest of {step.effect},"
         axis, kind, chance = AXES[found.axis], inv.after.sensor.kind, found.p_value * trials
         seen[step.effect] = Unexplained(kind, axis, (), chance, f"{like} {way}")
@@ -134,9 +136,12 @@ def _found(fit: Fit, effects: Sequence[str]) -> dict[str, Scored]:
 
     def columns_of(kind: str, terms: Sequence[Variation]) -> Callable:
         def add_all(trial: Trial, u: np.ndarray, add: Callable) -> None:
+            # Made of the inputs as they come: beside a noisy reference these are moved.
+            added = {e: _added(fit, trial, u, e) for e in {t.effect for t in terms}}
             for term in terms:
                 for i in range(3):
-                    for n, column in enumerate(shares[term.effect].columns(term.way, trial, i)):
+                    each = shares[term.effect].columns(term.way, trial, added[term.effect][:, i], i)
+                    for n, column in enumerate(each):
                         add(Shape(term.text, n, i), i, column)
 
         return add_all
@@ -153,23 +158,21 @@ def _variation(effect: str, way: str) -> Variation:
 
 @dataclass(frozen=True)
 class _Share:
-    """What an effect adds to the output, by log (n, 3), the ``ends`` (2, 3) of its range, and by
-    log the time [0..1] that has passed in all logs, one after another.
+    """Of what an effect adds to the output the ``ends`` (2, 3) of its range, and by log the time
+    [0..1] that has passed in all logs, one after another.
     """
 
-    added: Mapping[str, np.ndarray]
     ends: np.ndarray
     passed: Mapping[str, np.ndarray]
 
     @classmethod
     def of(cls, fit: Fit, effect: str) -> _Share:
-        added = {t.name: _added(fit, t, effect) for t in fit.trials}
-        ends = np.quantile(np.concatenate(list(added.values())), ENDS, axis=0)
-        return cls(added, ends, _passed(fit.trials))
+        inputs = ((t, reference_input(t, fit.states[t.name])) for t in fit.trials)
+        added = [_added(fit, t, u, effect) for t, u in inputs]
+        return cls(np.quantile(np.concatenate(added), ENDS, axis=0), _passed(fit.trials))
 
-    def columns(self, way: str, trial: Trial, axis: int) -> Iterator[np.ndarray]:
-        """The columns (n,) of one way in which it may be inconstant on an axis."""
-        share = self.added[trial.name][:, axis]
+    def columns(self, way: str, trial: Trial, share: np.ndarray, axis: int) -> Iterator[np.ndarray]:
+        """The columns (n,) of one way in which what is added (n,) to an axis may be inconstant."""
         if not share.any():
             return
         change = np.gradient(share, trial.h)
@@ -196,10 +199,10 @@ def _waves(x: np.ndarray, count: int) -> Iterator[np.ndarray]:
     return (np.cos(np.pi * k * x) for k in range(1, count + 1))
 
 
-def _added(fit: Fit, trial: Trial, effect: str) -> np.ndarray:
-    """What an effect adds (n, 3) to the output of a model."""
+def _added(fit: Fit, trial: Trial, u: np.ndarray, effect: str) -> np.ndarray:
+    """What an effect adds (n, 3) to the output of a model of inputs ``u``."""
     state = fit.states[trial.name]
-    u, earlier = reference_input(trial, state), before(trial, state)
+    earlier = before(trial, state)
     sensor = without_limit(in_log(fit.sensor, state), trial)[0]
 
     def output(one: Sensor) -> np.ndarray:

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.special import chdtrc
 
 from pyimu.identification.fit.columns import Linear
+from pyimu.identification.fit.errors_in_variables import has_noise
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Key, Shape
 from pyimu.identification.formula.columns import columns_of
@@ -61,10 +62,13 @@ class _Followed:
 
 def wandering(fit: Fit) -> tuple[Unexplained, ...]:
     """The signal that the residual of a fit follows most clearly by a share that wanders, axis by
-    axis; nothing where it is none.
+    axis; nothing where it is none, or the signals' own noise, which is in the residual, would say
+    so.
     """
+    if fit.is_reduced or has_noise(fit):
+        return ()
     terms = {t.text: t for t in simple(fit.sensor.kind, fit.trials)}
-    if fit.is_reduced or not terms:
+    if not terms:
         return ()
     out = []
     found = {i: _less_coloured(_followed(fit, i, terms)) for i in sorted(fit.noise)}
