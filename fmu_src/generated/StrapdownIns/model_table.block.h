@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{b3ed41e7-e9c9-8b5e-7f20-1c0685866d00}"
-#define MODEL_TOKEN_FMI3 "{3e7e51b5-7a3b-eb0c-bb2e-a96470e67040}"
+#define MODEL_TOKEN_FMI2 "{92447b65-942e-3da6-8656-01f2ab995a47}"
+#define MODEL_TOKEN_FMI3 "{76f1ea95-cb25-d1c1-0a17-9c24f2b4d360}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,24 +16,24 @@ enum {
     N_INPUTS = 21,
     N_PARAMETERS = 63,
     N_OUTPUTS = 43,
-    N_STATES = 519,
+    N_STATES = 520,
     N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 79
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 33, WORK_RES = 16, WORK_IW = 0, WORK_W = 5140 };
+enum { WORK_ARG = 33, WORK_RES = 16, WORK_IW = 0, WORK_W = 5142 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 382399 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 382262 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 382399 };
+enum { MODEL_MOST_SAMPLES = 382262 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 382399.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 382262.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

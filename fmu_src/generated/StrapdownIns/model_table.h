@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{793f10fb-045a-a99e-a856-6e4805b065b8}"
-#define MODEL_TOKEN_FMI3 "{2370cf69-9761-8f0e-ad8c-eea4bc582fba}"
+#define MODEL_TOKEN_FMI2 "{403a6596-2790-d3d1-d53d-56ac0ef9eb91}"
+#define MODEL_TOKEN_FMI3 "{8689b489-e51f-97ab-566b-565b28626871}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,20 +16,20 @@ enum {
     N_INPUTS = 21,
     N_PARAMETERS = 63,
     N_OUTPUTS = 43,
-    N_STATES = 519,
+    N_STATES = 520,
     N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 129
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 33, WORK_RES = 16, WORK_IW = 0, WORK_W = 5140 };
+enum { WORK_ARG = 33, WORK_RES = 16, WORK_IW = 0, WORK_W = 5142 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 382399 };
+enum { MODEL_MOST_SAMPLES = 382262 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -100,10 +100,11 @@ class Judged(Kept):
     seen, and below 0 for how long one lasts; ``fastest`` (3,) m/s is the largest velocity of the
     present drive, 0 without; ``force`` (3,) m/s^2 that of the rest in present axes, ``q`` (4,) its
     attitude; ``returned`` says whether a push back was seen of the present drive, ``rested`` s is
-    how long the last rest lasted and ``since`` s how long ago it ended.
+    how long the last rest lasted and ``since`` s how long ago it ended, and
+    ``swept`` rad how far the body has turned since, to and fro.
     """
 
-    SIZES: ClassVar = (1, 1, 1, 1, 1, 3, 3, 4, 1, 1, 1)
+    SIZES: ClassVar = (1, 1, 1, 1, 1, 3, 3, 4, 1, 1, 1, 1)
 
     kept: ca.SX
     apart: ca.SX
@@ -116,6 +117,7 @@ class Judged(Kept):
     returned: ca.SX
     rested: ca.SX
     since: ca.SX
+    swept: ca.SX
 
     @property
     def resting(self):
@@ -148,7 +150,7 @@ def judged(
     slow, looks, fastest = seen.slow, seen.looks, ca.sumsqr(memory.fastest)
     none, resting, lapsed = fastest <= 0, memory.resting, memory.lapsed
     near = ca.fmax(memory.kept, fastest > 0)
-    pushed = _is_pushed(memory, x, near, seen.window, settings, h)
+    pushed = _is_pushed(memory, near, seen.window, settings, h)
     pushed = ca.fmax(pushed, near * slow.now)
     moves = (1 - resting) * _moves(memory, x)
     gain = quaternion.rotate(x.q, slow.gain.speed)
@@ -211,14 +213,15 @@ def _after(memory: Judged, x: Motion, seen: Seen, now: tuple, h) -> Judged:
         returned=lasts * returned,
         rested=ca.if_else(rest, (1 - begins) * memory.rested + h, memory.rested),
         since=going * (memory.since + h),
+        swept=going * (memory.swept + h * (1 - looks) * ca.norm_2(seen.rate)),
     )
 
 
-def _is_pushed(memory: Judged, x: Motion, near, found: Window, settings: Settings, h):
+def _is_pushed(memory: Judged, near, found: Window, settings: Settings, h):
     """Whether the window's mean force is another than that of the rest before, 0 or 1."""
     white = (settings.accel.white * settings.scalar["rest_noise"]) ** 2
     variance = ca.sum1(white) / 3 * reciprocal(h * found.count)
-    stays = FORCE_KEPT**2 + FORCE_TURNED**2 * _chord(memory, x)
+    stays = FORCE_KEPT**2 + FORCE_TURNED**2 * memory.swept**2
     stays = ca.if_else(near, FORCE_STAYS**2, stays)
     off = ca.sumsqr(found.force - memory.force) > GATE * (stays + 2 * variance)
     return off * (ca.sumsqr(memory.q) > 0)
