@@ -32,7 +32,7 @@ from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor
 
 SLOW = 6
-"""Half waves over all logs of the fastest change in time: a minute's in ten minutes of logs."""
+"""Half waves over all logs of the fastest change in time: 100 s each in ten minutes of logs."""
 
 BENT = 12
 """Half waves over the range of an effect's share of the output: six stairs."""
@@ -46,7 +46,6 @@ ENDS = (0.005, 0.995)
 ANOTHER = 0.25
 """Share of what an effect explains from which on what its inconstancy does makes another error of
 it: half of its amplitude."""
-
 
 REST = 0.05
 """Share of it from which on it is said: less than a fifth of its amplitude is a matter of form."""

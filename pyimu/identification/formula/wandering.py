@@ -29,7 +29,7 @@ BLOCK = 8.0
 """s; over which a share is taken as constant at least."""
 
 LONGER = (1, 3, 6)
-"""Times that."""
+"""Times that. Chosen with two logs beside an angle whose phase drifts by a turn in 40 to 150 s."""
 
 FEWEST = 8
 """Shares of all blocks, and rows of one, at least."""
