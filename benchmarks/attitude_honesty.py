@@ -64,15 +64,21 @@ DEFINED = {"undeclared clip", "an axis sticks", "the same, a gyro that warms up,
 """Cases with errors that nobody declared."""
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--runs", type=int, default=40)
-    parser.add_argument("--first", type=int, default=0, help="number of the first run")
+def options(description: str, runs: int, results: Path) -> argparse.ArgumentParser:
+    """Of a table of so many runs a body, finished ones of which are kept in ``results``."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--runs", type=int, default=runs)
     parser.add_argument("--only", default="")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--smooth", action="store_true")
-    parser.add_argument("--results", type=Path, default=RESULTS, help="file of finished runs")
+    parser.add_argument("--results", type=Path, default=results, help="file of finished runs")
+    return parser
+
+
+def main() -> None:
+    parser = options(__doc__.splitlines()[0], 40, RESULTS)
+    parser.add_argument("--first", type=int, default=0, help="number of the first run")
     told = parser.parse_args()
     cases = [c for c in CASES if told.only in c.name]
     how = "smoothed" if told.smooth else "filtered"

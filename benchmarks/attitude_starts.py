@@ -13,12 +13,11 @@ Constants were chosen with other bodies than these, which are alike (``pyimu.att
 
 from __future__ import annotations
 
-import argparse
 import tempfile
 from pathlib import Path
 
 import numpy as np
-from attitude_honesty import SOURCES, VQF, errors, peer
+from attitude_honesty import SOURCES, VQF, errors, options, peer
 from drives.starts import STARTS
 from runs.pool import digest, name, run_all
 
@@ -33,14 +32,7 @@ LATER = 60.0
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--runs", type=int, default=8)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--smooth", action="store_true")
-    parser.add_argument("--results", type=Path, default=RESULTS, help="file of finished runs")
-    told = parser.parse_args()
+    told = options(__doc__.splitlines()[0], 8, RESULTS).parse_args()
     how = "smoothed" if told.smooth else "filtered"
     keys = [
         (text.replace(" ", "_"), told.seed, i, how)

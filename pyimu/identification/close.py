@@ -280,16 +280,14 @@ def _looked(
         found = Look(inv)
     if inv.after.is_reduced:
         return found
-    formula, left = found.formula, found.investigation
-    left = less_than_memory(left) if formula is None else left
-    constant = less_inconstant(left, formula.name if formula else "")
-    memory = remembered(constant.investigation.after) if formula is None else None
-    return replace(
-        found,
-        investigation=constant.investigation,
-        memory=memory,
-        inconstant=constant.unexplained,
-    )
+    if found.formula is not None:
+        constant = less_inconstant(found.investigation, found.formula.name)
+        memory = None
+    else:
+        constant = less_inconstant(less_than_memory(found.investigation))
+        memory = remembered(constant.investigation.after)
+    left, inconstant = constant.investigation, constant.unexplained
+    return replace(found, investigation=left, memory=memory, inconstant=inconstant)
 
 
 def _random(start: Part, kind: str) -> frozenset[str]:

@@ -9,8 +9,9 @@ regression; all three are asked here as terms of a formula are, whitened, beside
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 
 import numpy as np
 
@@ -82,44 +83,47 @@ def less_inconstant(inv: Investigation, formula: str = "") -> Constancy:
     """
     seen: dict[str, Unexplained] = {}
     while (worst := _least_constant(inv, {formula, *seen})) is not None:
-        step, found, share, trials = worst
+        effect, way = worst.found.term.effect, worst.found.term.way
         # A lag of another order, or beside a clock that slips, is a lag all the same.
-        is_form = CATALOGUE[step.effect].stage == "dynamics"
-        way, taken_back = found.term.way, share > ANOTHER and not is_form
-        like = f"an error like {step.effect}, but" if taken_back else f"a rest of {step.effect},"
-        axis, kind, chance = AXES[found.axis], inv.after.sensor.kind, found.p_value * trials
-        seen[step.effect] = Unexplained(kind, axis, (), chance, f"{like} {way}")
+        taken_back = worst.share > ANOTHER and CATALOGUE[effect].stage != "dynamics"
+        said = f"an error like {effect}, but {way}" if taken_back else f"a rest of {effect}, {way}"
+        kind, axis = inv.after.sensor.kind, AXES[worst.found.axis]
+        seen[effect] = Unexplained(kind, axis, (), worst.chance, said)
         if taken_back:
-            inv = without(inv, step.effect, f"it is {way}")
+            inv = without(inv, effect, f"it is {way}")
     return Constancy(inv, tuple(seen.values()))
 
 
-def _least_constant(inv: Investigation, known: set[str]) -> tuple[Step, Scored, float, int] | None:
-    """The effect that is inconstant most clearly but for those ``known``, how, which share of its
-    gain that explains, and how many were asked on how many axes; None where all are constant.
+@dataclass(frozen=True)
+class _Inconstant:
+    """A variation that was ``found`` beyond chance, by which ``chance`` of all that were asked, and
+    which ``share`` of what its effect explains it does.
     """
-    if inv.after.is_reduced:
-        return None
+
+    found: Scored
+    chance: float
+    share: float
+
+
+def _least_constant(inv: Investigation, known: set[str]) -> _Inconstant | None:
+    """How the effect that is inconstant most clearly but for those ``known`` is; None where all are
+    constant.
+    """
     steps = {s.effect: s for s in inv.steps if _is_asked(s) and s.effect not in known}
+    if inv.after.is_reduced or not steps:
+        return None
     declared = inv.after.as_declared()
     # By the noise that the residual shows, too: one that wanders follows any slow column by chance.
     fits = (inv.after,) if declared is inv.after else (declared, inv.after)
-    if not steps:
-        return None
     first, *rest = (_found(f, list(steps)) for f in fits)
-    less_clear = [max([s, *(r[t] for r in rest if t in r)], key=_chance) for t, s in first.items()]
-    trials = len(AXES) * len(less_clear)
-    clear = [s for s in less_clear if _chance(s) * trials < UNEXPLAINED]
+    chance = attrgetter("p_value")
+    less_clear = [max([s, *(r[t] for r in rest if t in r)], key=chance) for t, s in first.items()]
     of_form = left_by_forms(inv.after, inv.steps)
-    for found in sorted(clear, key=_chance):
-        step = steps[found.term.effect]
-        if found.excess > max(REST * step.gain, of_form):
-            return step, found, found.excess / step.gain, trials
+    for found in sorted(less_clear, key=chance):
+        in_all, gain = found.p_value * len(AXES) * len(less_clear), steps[found.term.effect].gain
+        if in_all < UNEXPLAINED and found.excess > max(REST * gain, of_form):
+            return _Inconstant(found, in_all, found.excess / gain)
     return None
-
-
-def _chance(found: Scored) -> float:
-    return found.p_value
 
 
 def _is_asked(step: Step) -> bool:
@@ -131,12 +135,12 @@ def _is_asked(step: Step) -> bool:
 
 def _found(fit: Fit, effects: Sequence[str]) -> dict[str, Scored]:
     """By text what each way in which each effect may be inconstant explains beside a model."""
-    shares = {e: _Share.of(fit, e) for e in effects}
+    shares = _shares(fit, effects)
 
     def columns_of(kind: str, terms: Sequence[Variation]) -> Callable:
         def add_all(trial: Trial, u: np.ndarray, add: Callable) -> None:
             # Made of the inputs as they come: beside a noisy reference these are moved.
-            added = {e: _added(fit, trial, u, e) for e in {t.effect for t in terms}}
+            added = _added(fit, trial, u, {t.effect for t in terms})
             for term in terms:
                 for i in range(3):
                     each = shares[term.effect].columns(term.way, trial, added[term.effect][:, i], i)
@@ -163,12 +167,6 @@ class _Share:
 
     ends: np.ndarray
     passed: Mapping[str, np.ndarray]
-
-    @classmethod
-    def of(cls, fit: Fit, effect: str) -> _Share:
-        inputs = ((t, reference_input(t, fit.states[t.name])) for t in fit.trials)
-        added = [_added(fit, t, u, effect) for t, u in inputs]
-        return cls(np.quantile(np.concatenate(added), ENDS, axis=0), _passed(fit.trials))
 
     def columns(self, way: str, trial: Trial, share: np.ndarray, axis: int) -> Iterator[np.ndarray]:
         """The columns (n,) of one way in which what is added (n,) to an axis may be inconstant."""
@@ -198,8 +196,17 @@ def _waves(x: np.ndarray, count: int) -> Iterator[np.ndarray]:
     return (np.cos(np.pi * k * x) for k in range(1, count + 1))
 
 
-def _added(fit: Fit, trial: Trial, u: np.ndarray, effect: str) -> np.ndarray:
-    """What an effect adds (n, 3) to the output of a model of inputs ``u``."""
+def _shares(fit: Fit, effects: Sequence[str]) -> dict[str, _Share]:
+    inputs = ((t, reference_input(t, fit.states[t.name])) for t in fit.trials)
+    added, passed = [_added(fit, t, u, effects) for t, u in inputs], _passed(fit.trials)
+    every = {e: np.concatenate([one[e] for one in added]) for e in effects}
+    return {e: _Share(np.quantile(v, ENDS, axis=0), passed) for e, v in every.items()}
+
+
+def _added(
+    fit: Fit, trial: Trial, u: np.ndarray, effects: Collection[str]
+) -> dict[str, np.ndarray]:
+    """What each effect adds (n, 3) to the output of a model of inputs ``u``."""
     state = fit.states[trial.name]
     earlier = before(trial, state)
     sensor = without_limit(in_log(fit.sensor, state), trial)[0]
@@ -207,7 +214,8 @@ def _added(fit: Fit, trial: Trial, u: np.ndarray, effect: str) -> np.ndarray:
     def output(one: Sensor) -> np.ndarray:
         return predict(one, u, trial.segments, trial.h, earlier)
 
-    return output(sensor) - output(sensor.without(effect))
+    whole = output(sensor)
+    return {e: whole - output(sensor.without(e)) for e in effects}
 
 
 def _passed(trials: Sequence[Trial]) -> dict[str, np.ndarray]:
