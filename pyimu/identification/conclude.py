@@ -104,7 +104,7 @@ def conclude(
     )
     named = _findings(case, say)
     say("error on held-out data")
-    errors, entries, likelihood = scores(found, logs, others, _gained(noises))
+    errors, entries, likelihood = scores(found, logs, others, noises)
     evidence = _evidence(case, *named, errors, entries, *of_attitude)
     say("the whole model, and what to measure next")
     closed = Closed(
@@ -319,10 +319,6 @@ def _findings(
         changed += noise.changed
         drifts |= {kind: dict(noise.drift)} if noise.drift else {}
     return added, changed, drifts
-
-
-def _gained(noises: dict[str, Noise]) -> dict[str, float]:
-    return {kind: n.gained for kind, n in noises.items()}
 
 
 def _fates(kind: str, inv: Investigation, added: list[Added], noise: Noise) -> list[Fate]:

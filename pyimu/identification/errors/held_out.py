@@ -22,12 +22,14 @@ from pyimu.identification.fit.score import (
     ErrorSums,
     UnitFloor,
     held_state,
+    markov_floor,
     tally,
     unit_floor,
 )
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.found.entries import AtRest, Errors, LogEntry
+from pyimu.identification.noise.named import Noise
 from pyimu.identification.reference.level import Leaning, leaning
 from pyimu.identification.search.belief import FARTHEST, most
 from pyimu.identification.search.forward import Investigation
@@ -45,11 +47,10 @@ def scores(
     found: dict[str, Investigation],
     logs: list[Recording],
     others: list[Recording],
-    gained: Mapping[str, float],
+    noises: Mapping[str, Noise],
 ) -> Scores:
-    """Held-out errors of each sensor, in all and by recording, and log-likelihood per sample.
-
-    ``gained`` is by sensor what the noise that was named adds to the likelihood after [nat].
+    """Held-out errors of each sensor, in all and by recording, and log-likelihood per sample, with
+    what was found of the ``noises`` of each.
     """
     together = [*logs, *others]
     by_log: dict[str, dict[str, Errors]] = {r.name: {} for r in together}
@@ -59,11 +60,13 @@ def scores(
         judged = inv.after.prior and any(t.reduction is None for t in inv.held)
         unsure = what_is_open(inv.after) if judged and not inv.unfit else None
         for trial in inv.held:
-            by_log[trial.name][kind] = _errors(inv, trial, noise, unsure)
+            error = _errors(inv, trial, noise, unsure)
+            by_log[trial.name][kind] = replace(error, named=_named(inv, trial, noises.get(kind)))
         each = [e[kind] for e in by_log.values() if kind in e]
         if each:
             errors[kind] = sum(each[1:], start=each[0])
-            more = ErrorSums(log_likelihood=gained.get(kind, 0.0))
+            gained = noises[kind].gained if kind in noises else 0.0
+            more = ErrorSums(log_likelihood=gained)
             likelihood += _per_row(replace(errors[kind], after=errors[kind].after + more))
     entries = tuple(_entry(r, found, by_log[r.name]) for r in together)
     return errors, entries, tuple(likelihood.tolist()) if errors else None
@@ -91,6 +94,16 @@ def _errors(
     open_ = None if unsure is None else left_open(inv.after, trial, unsure)
     slow = _slow(inv, trial, floor, reference)
     return Errors(unit, *both, least, drift or ErrorSums(), unsure=open_, slow=slow)
+
+
+def _named(inv: Investigation, trial: Trial, noise: Noise | None) -> ErrorSums | None:
+    """What the slow noise that was named leaves of rows; None where there is none, or where no
+    noise is told apart.
+    """
+    processes = {} if noise is None else noise.processes
+    if not processes or trial.reduction is not None or inv.unfit:
+        return None
+    return markov_floor(inv.after, trial, processes)
 
 
 def _slow(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from scipy.linalg import solve_toeplitz
@@ -142,3 +142,23 @@ def unit_noise(
         white[:, i] = rng.standard_normal(len(time))
         walk[:, i] = np.cumsum(steps * rng.standard_normal(len(time)))
     return white, walk
+
+
+Processes = Mapping[int, Sequence[tuple[float, float]]]
+"""By axis the variance and the correlation time [s] of each of its Gauss-Markov processes."""
+
+
+def markov_noise(processes: Processes, time: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Gauss-Markov processes (n, 3), stationary, at the sample rate; zero on other axes.
+
+    A gap is passed over: rows across it are as close as any.
+    """
+    out = np.zeros((len(time), 3))
+    h = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
+    for i, pairs in processes.items():
+        for variance, tau in pairs:
+            kept = np.exp(-h / tau)
+            draw = np.sqrt(variance) * rng.standard_normal(len(time) + 1)
+            new = np.sqrt(-np.expm1(-2.0 * h / tau)) * draw[1:]
+            out[:, i] += lfilter([1.0], [1.0, -kept], new, zi=kept * draw[:1])[0]
+    return out

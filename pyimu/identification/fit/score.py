@@ -7,8 +7,9 @@ on that log's fitted rows.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -18,7 +19,7 @@ from pyimu.identification.fit.columns import band_segments, in_band, in_log, lin
 from pyimu.identification.fit.fit import Fit, bare, initial_state
 from pyimu.identification.fit.inputs import LogState, before, reference_input
 from pyimu.identification.fit.keys import Key, LogClock, LogLag, LogPlace, LogTurn
-from pyimu.identification.fit.noise_floor import unit_noise
+from pyimu.identification.fit.noise_floor import Processes, markov_noise, unit_noise
 from pyimu.identification.fit.normal import normal_equations, solve
 from pyimu.identification.fit.place import SCALE
 from pyimu.identification.fit.response import predict
@@ -261,14 +262,35 @@ def unit_floor(fit: Fit, trial: Trial, seed: int = 1) -> UnitFloor:
     """What the noise of a fitted model's axes leaves of a held-out trial, by simulation through the
     same band and bias estimate.
     """
+    return UnitFloor(*_left_of(fit, trial, partial(unit_noise, fit.noise), seed))
+
+
+def markov_floor(fit: Fit, trial: Trial, processes: Processes, seed: int = 1) -> ErrorSums:
+    """What Gauss-Markov ``processes`` of a sensor leave of a held-out trial, likewise."""
+
+    def draw(time: np.ndarray, rng: np.random.Generator) -> tuple[np.ndarray]:
+        return (markov_noise(processes, time, rng),)
+
+    return _left_of(fit, trial, draw, seed)[0]
+
+
+def _left_of(
+    fit: Fit,
+    trial: Trial,
+    draw: Callable[[np.ndarray, np.random.Generator], tuple[np.ndarray, ...]],
+    seed: int,
+) -> list[ErrorSums]:
+    """What noises that are drawn (n, 3) each at times (n,) leave of a held-out trial."""
     rng = np.random.default_rng(seed)
     parent = next((t for t in fit.trials if t.name == trial.parent), None)
     head, rest = (parent, trial) if parent is not None else trial.head()
-    time, total = np.union1d(head.time, rest.time), [ErrorSums(), ErrorSums()]
+    time, total = np.union1d(head.time, rest.time), []
     of_head, of_rest = (np.searchsorted(time, t.time) for t in (head, rest))
     for _ in range(FLOOR_DRAWS):
-        for k, draw in enumerate(unit_noise(fit.noise, time, rng)):
-            first, last = draw[of_head], draw[of_rest]
+        left = []
+        for noise in draw(time, rng):
+            first, last = noise[of_head], noise[of_rest]
             bias = in_band(head, first).mean(axis=0) if head.count else np.zeros(3)
-            total[k] = total[k] + sums(rest, in_band(rest, last - bias))
-    return UnitFloor(*total)
+            left.append(sums(rest, in_band(rest, last - bias)))
+        total = [a + b for a, b in zip(total, left, strict=True)] if total else left
+    return total

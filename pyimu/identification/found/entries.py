@@ -105,10 +105,10 @@ class Errors(Brief):
     """Held-out error of one sensor before, after, and as the noise alone would leave it.
 
     ``floor`` is what the white noise of sensor and reference leaves, ``drift`` what the random walk
-    of the sensor would add to it, ``unsure`` what gravity there and coefficients that nobody
-    declared may add, as far as the other rows leave them open, ``slow`` the most that the random
-    walk of any part and the reference's noise make of a mean over seconds. ``data`` says what was
-    held out where that is not the same for all sensors.
+    of the sensor would add to it, ``named`` what slow noise that was named does, ``unsure`` what
+    gravity there and coefficients that nobody declared may add, as far as the other rows leave them
+    open, ``slow`` the most that the random walk of any part and the reference's noise make of a
+    mean over seconds. ``data`` says what was held out where that is not the same for all sensors.
     """
 
     unit: str
@@ -119,22 +119,23 @@ class Errors(Brief):
     data: str = ""
     unsure: ErrorSums | None = None
     slow: ErrorSums | None = None
+    named: ErrorSums | None = None
 
     @property
     def noise(self) -> float:
-        """RMS that white noise and random walk leave together; NaN without a floor."""
+        """RMS that white noise, random walk and named noise leave together; NaN without a floor."""
         if self.floor is None:
             return float("nan")
-        drift = 0.0 if self.drift is None else np.nan_to_num(self.drift.total)
-        return float(np.hypot(self.floor.total, drift))
+        slow = (np.nan_to_num(one.total) for one in (self.drift, self.named) if one is not None)
+        return float(np.linalg.norm([self.floor.total, *slow]))
 
     @property
     def noise_per_axis(self) -> np.ndarray:
         """The same of each axis (3,)."""
         if self.floor is None:
             return np.full(3, np.nan)
-        drift = np.zeros(3) if self.drift is None else np.nan_to_num(self.drift.per_axis)
-        return np.hypot(self.floor.per_axis, drift)
+        slow = [np.nan_to_num(s.per_axis) for s in (self.drift, self.named) if s is not None]
+        return np.linalg.norm([self.floor.per_axis, *slow], axis=0)
 
     @property
     def expected(self) -> float:
@@ -153,7 +154,7 @@ class Errors(Brief):
         """RMS (3,) of the integral over a window that all of this may leave at most; NaN where no
         part's walk is known.
         """
-        parts = [one for one in (self.floor, self.unsure) if one is not None]
+        parts = [one for one in (self.floor, self.unsure, self.named) if one is not None]
         if self.slow is None or self.floor is None:
             return np.full(3, np.nan)
         squares = sum(np.nan_to_num(one.angle_per_axis) ** 2 for one in parts)
@@ -162,7 +163,7 @@ class Errors(Brief):
     def __add__(self, other: Errors) -> Errors:
         sums = {
             n: _both(getattr(self, n), getattr(other, n))
-            for n in ("before", "after", "floor", "drift", "unsure", "slow")
+            for n in ("before", "after", "floor", "drift", "unsure", "slow", "named")
         }
         return Errors(self.unit, **sums, data=self.data)
 
@@ -180,8 +181,8 @@ class Errors(Brief):
 
     def _row(self, name: str) -> dict[str, Any]:
         tallies = {n: getattr(self, n) for n in ("before", "after", "floor", "drift")}
-        if self.unsure is not None:
-            tallies["unsure"] = self.unsure
+        seldom = {"unsure": self.unsure, "named": self.named}
+        tallies |= {n: one for n, one in seldom.items() if one is not None}
         return {k: None if t is None else plain(getattr(t, name)) for k, t in tallies.items()}
 
 

@@ -41,6 +41,11 @@ class Jump(NamedTuple):
     gain: float
     shape: str
 
+    @property
+    def chance(self) -> float:
+        """Of a gain as large where there is nothing but noise."""
+        return float(np.exp(-max(self.gain, 0.0)))
+
 
 def jumps_of(found: Explained) -> dict[int, Jump]:
     """The axes whose residual jumps, in place of the slow noise that was chosen for them: each at

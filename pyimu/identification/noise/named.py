@@ -7,17 +7,20 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from pyimu.identification.formula.constancy import ANOTHER
 from pyimu.identification.found.entries import Added, Changed
 from pyimu.identification.noise.choose import Chosen, State, Term, refined
 from pyimu.identification.noise.exact import AxisNoise
 from pyimu.identification.noise.explained import Explained
-from pyimu.identification.noise.jumps import Jump
+from pyimu.identification.noise.jumps import JUMPS, Jump
 from pyimu.identification.noise.laws import Kind, names_of
+from pyimu.identification.noise.misfit import Misfit, misfits_of
 from pyimu.identification.noise.shapes import shapes_of
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.forward import Investigation, Refused
 from pyimu.identification.search.leftover import Unexplained
-from pyimu.model.catalogue import WALK, WHITE
+from pyimu.model.arguments import AXES
+from pyimu.model.catalogue import CATALOGUE, WALK, WHITE
 from pyimu.model.sensor import Sensor
 
 RELEVANT = 0.005
@@ -54,6 +57,20 @@ class Noise:
         """Whether there is noise that the part lacks, or a shape that no noise has."""
         return bool(self.added or self.drift or self.shapes)
 
+    @property
+    def processes(self) -> dict[int, list[tuple[float, float]]]:
+        """By axis the variance and the correlation time [s] of each Gauss-Markov process that was
+        added.
+        """
+        out: dict[int, list[tuple[float, float]]] = {}
+        for a in (a for a in self.added if CATALOGUE[a.effect].law.markov):
+            law = CATALOGUE[a.effect].law
+            for i in range(len(AXES)):
+                given = {n: v[i] if np.ndim(v) else v for n, (v, _, _) in a.parameters.items()}
+                pairs = (tuple(map(float, p)) for p in law.value("markov", given))
+                out.setdefault(i, []).extend((v, tau) for v, tau in pairs if v > 0.0)
+        return {i: pairs for i, pairs in out.items() if pairs}
+
 
 def noise_of(
     sensor: Sensor, inv: Investigation, free: frozenset[str], rounds: bool, sensors: int
@@ -69,11 +86,23 @@ def noise_of(
     if known is None:
         return Noise(unasked=DIFFERENTIATED)
     found = known.chosen_of(sensors)
-    shapes = shapes_of(found)
+    shapes = _shapes_of(found)
     if shapes:
         rest = State({i: a for i, a in known.state.axes.items() if i not in shapes})
         found = replace(known, state=rest).chosen_of(sensors)
-    return found.confirmed().told(shapes)
+    found = found.confirmed()
+    return found.told({**misfits_of(found), **shapes})
+
+
+def _shapes_of(found: Explained) -> dict[int, Jump | Misfit]:
+    """By axis what is no noise of the kinds that were chosen: a shape, or a spectrum so far from
+    theirs that it is another noise. Jumps have the spectrum of Gauss-Markov noise.
+    """
+    shapes: dict[int, Jump | Misfit] = dict(shapes_of(found))
+    for i, misfit in misfits_of(found).items():
+        if shapes[i].shape in JUMPS if i in shapes else misfit.share > ANOTHER:
+            shapes[i] = misfit
+    return shapes
 
 
 class _Named(Explained):
@@ -86,7 +115,8 @@ class _Named(Explained):
         noise = AxisNoise({by_name[n]: (s, {}) for n, s in squares.items() if s > 0.0})
         return sum(float(noise.likelihood(one)[one.fitted :].sum()) for one in self.logs[i])
 
-    def told(self, shapes: Mapping[int, Jump]) -> Noise:
+    def told(self, shapes: Mapping[int, Jump | Misfit]) -> Noise:
+        """What was chosen by name, beside the axes whose residual has a shape of its own."""
         added = [self._added(c) for c in self.chosen if not self._is_declared(c.kind)]
         changed = [c for one in self.chosen if (c := self._changed(one)) is not None]
         white = self._changed_beside()
@@ -104,16 +134,15 @@ class _Named(Explained):
             tuple(added),
             tuple(changed),
             self._drift(),
-            tuple(self._shaped(i, one) for i, one in shapes.items()),
+            tuple(self._shaped(i, one) for i, one in sorted(shapes.items())),
             self.refused,
             values,
             std,
             gained if self.chosen else 0.0,
         )
 
-    def _shaped(self, i: int, one: Jump) -> Unexplained:
-        chance = float(np.exp(-max(one.gain, 0.0)))
-        return Unexplained(self.sensor.kind, "xyz"[i], (), chance, one.shape)
+    def _shaped(self, i: int, one: Jump | Misfit) -> Unexplained:
+        return Unexplained(self.sensor.kind, AXES[i], (), one.chance, one.shape)
 
     def _of_all(self, name: str) -> np.ndarray:
         out = np.zeros(3)

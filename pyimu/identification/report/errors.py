@@ -146,6 +146,9 @@ def error_notes(closed: Outcome) -> list[str]:
             walk = quantity(e.drift.total, e.unit)
             whose = f"the {SENSORS[kind]}'s random walk"
             notes.append(f"Over the held-out rows {whose} may add {walk} to its floor.")
+        if e.named is not None:
+            slow = quantity(e.named.total, e.unit)
+            notes.append(f"The slow noise that was named leaves {slow} of the {QUANTITIES[kind]}.")
     for kind, band in closed.band_hz.items():
         if band is not None:
             notes.append(

@@ -94,8 +94,9 @@ def _errors(closed: Outcome) -> Iterator[str]:
             least = number(float(in_unit(e.floor.total, e.unit, unit)))
             floor = f", {times} times the floor of {least} {unit}"
             if e.noise > 1.01 * e.floor.total:
-                walk = number(values[1] / e.noise, 2)
-                floor += f" ({walk} times with the random walk that may be in it)"
+                slow = number(values[1] / e.noise, 2)
+                what = "the random walk that may be in it" if e.named is None else "all its noise"
+                floor += f" ({slow} times with {what})"
         rows = e.data or where
         yield f"{QUANTITIES[kind]} residual on {rows}: {_fall(values, e.unit)}{left}{floor}"
     yield from map(gravity_at_rest, closed.at_rest)
