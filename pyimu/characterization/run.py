@@ -18,6 +18,7 @@ from pyimu.characterization.handled import of_what_is_left, without_ends
 from pyimu.characterization.log_samples import Say, read_samples
 from pyimu.characterization.noise.coefficients import Coefficient, mean_coefficient
 from pyimu.characterization.outcome import LogResult, SensorResult, Summary
+from pyimu.characterization.repeats import without_repeats
 from pyimu.characterization.result import Characterization
 from pyimu.characterization.sensor import SensorAnalysis
 from pyimu.characterization.shocks import without_shocks
@@ -90,8 +91,9 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
     with Store() as store:
         read = read_samples(source, name, store, say)
         wrapped = {f.column for f in read.findings if f.kind == "wrapped"}
-        moving = [f for s in read.sensors.values() for f in s.motion(wrapped)]
-        sensors, handled = without_ends(read.sensors, wrapped) if moving else (read.sensors, [])
+        fresh, repeats = without_repeats(read.sensors, read.findings, store)
+        moving = [f for s in fresh.values() for f in s.motion(wrapped)]
+        sensors, handled = without_ends(fresh, wrapped) if moving else (fresh, [])
         known, moving = read.findings, [] if handled else moving
         if handled:
             known = tuple(of_what_is_left(known, sensors))
@@ -108,7 +110,7 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
         }
         if not any(c.noise for r in results.values() for c in r.channels):
             raise UserError(_nothing(name, results))
-        findings = (*known, *handled, *moving, *shocks)
+        findings = (*known, *repeats, *handled, *moving, *shocks)
         shown = evidence(findings, read.sensors)
         findings = (*findings, *_warm_ups(results.values()))
         field = _magnetometer(source, moving, say)

@@ -44,7 +44,8 @@ class Samples:
     The sample period is ``h`` s, ``segments`` are ranges (start, stop) without gap, ``missing``
     (k,) are the rows of the log that are no samples. ``averages`` over intervals are None in a log
     without temperature. ``absent`` axes, by index and with the reason, have no samples: their
-    columns are zero. ``before`` samples of the log are left out at its beginning.
+    columns are zero. ``before`` samples of the log are left out at its beginning. Gaps are closed
+    until the share ``most_lost`` is lost in them.
     """
 
     kind: str
@@ -56,6 +57,7 @@ class Samples:
     averages: Averages | None
     absent: Mapping[int, str] = field(default_factory=dict)
     before: int = 0
+    most_lost: float = MOST_LOST
 
     def place(self, row: int) -> int:
         """Number of the sample in row ``row`` of the log."""
@@ -63,12 +65,14 @@ class Samples:
 
     def row(self, sample: int) -> int:
         """Row of the log in which a sample is."""
-        # The rows before it that are no samples are those whose own place is not beyond it.
-        sample += self.before
-        return int(
-            sample
-            + np.searchsorted(self.missing - np.arange(len(self.missing)), sample, side="right")
-        )
+        return int(self.rows(np.array([sample]))[0])
+
+    def rows(self, samples: np.ndarray) -> np.ndarray:
+        """Rows (k,) of the log in which samples (k,) are."""
+        # The rows before one that are no samples are those whose own place is not beyond it.
+        number = samples + self.before
+        place = self.missing - np.arange(len(self.missing))
+        return number + np.searchsorted(place, number, side="right")
 
     def __len__(self) -> int:
         return len(self.time)
@@ -119,7 +123,7 @@ class Samples:
         behind = [b for (_, a), (b, _) in pairwise(self.segments) if a == b]
         lost = np.array([self.time[b] - self.time[b - 1] - self.h for b in behind])
         order = np.argsort(lost, kind="stable")
-        few = np.cumsum(lost[order]) <= MOST_LOST * self.h * len(self)
+        few = np.cumsum(lost[order]) <= self.most_lost * self.h * len(self)
         return {behind[i] for i in order[few & (lost[order] <= LONGEST_CLOSED)]}
 
     @property

@@ -8,7 +8,13 @@ import numpy as np
 
 from pyimu.characterization.outcome import SAMPLE, SI, Channel, Outcome, Summary
 from pyimu.characterization.report.coefficients import SAMPLE_UNIT, UNITS, with_interval
-from pyimu.characterization.report.log_notes import COARSE, doubts, duration, rounding_share
+from pyimu.characterization.report.log_notes import (
+    COARSE,
+    doubts,
+    duration,
+    left_out,
+    rounding_share,
+)
 from pyimu.characterization.temperature import fit as thermal_fit
 from pyimu.characterization.temperature.fit import ThermalFit
 from pyimu.characterization.temperature.hysteresis import Hysteresis
@@ -54,7 +60,7 @@ def part_of(c: Outcome, name: str) -> Part:
 def _description(c: Outcome) -> str:
     logs = ", ".join(f"{log.name} ({duration(log.duration)})" for log in c.logs)
     rest = "not at rest" if any(f.kind == "motion" for f in c.findings) else "at rest"
-    doubted = "".join(f" {text}" for log in c.logs for text in doubts(log))
+    doubted = "".join(f" {text}" for log in c.logs for text in (*doubts(log), *left_out(log)))
     return (
         f"Characterised by pyimu from {logs}; {rest}. N is the root of the two-sided "
         f"density.{doubted}"
@@ -169,6 +175,8 @@ def _bias(c: Outcome, kind: str) -> Iterator[PartValue]:
     if kind != "gyro":
         return
     by_axis = [[_bias_of(ch) for ch in c.channel(f"{kind}_{axis}")] for axis in AXES]
+    if not np.isfinite(np.concatenate(by_axis)).any():
+        return
     # An axis without samples has none.
     by_axis = [[v for v in b if np.isfinite(v)] or [0.0] for b in by_axis]
     spread = ""

@@ -23,7 +23,7 @@ FAULTS = {
         "bias is off"
     ),
     "spikes": "the spikes are in N and Q, which are too large",
-    "stuck_samples": "stuck samples hold one value for long, so that N, B and K are off",
+    "stuck_samples": "stuck samples hold one value for long; all but the first were left out",
     "held_samples": (
         "each value stands in several rows, so that Q and N at short clusters are those of the log "
         "and not of the sensor"
@@ -56,12 +56,20 @@ def about(log: LogResult) -> str:
 
 def notes(c: Outcome) -> list[str]:
     """What must be known of the logs: doubts, gaps, and channels that are left out."""
-    return [line for log in c.logs for line in (*doubts(log), *_gaps(log), *_floors(log))] + [
-        f"{log.name}: {ch.name} is left out: {ch.reason}."
+    return [
+        line
         for log in c.logs
-        for ch in log.channels
-        if ch.noise is None
+        for line in (*doubts(log), *_gaps(log), *_floors(log), *left_out(log))
     ]
+
+
+def left_out(log: LogResult) -> Iterator[str]:
+    """Which channels are left out, a sentence for each reason."""
+    left = [ch for ch in log.channels if ch.noise is None]
+    for reason in dict.fromkeys(ch.reason for ch in left):
+        names = [ch.name for ch in left if ch.reason == reason]
+        verb = "is" if len(names) == 1 else "are"
+        yield f"{log.name}: {', '.join(names)} {verb} left out: {reason}."
 
 
 def _gaps(log: LogResult) -> Iterator[str]:
@@ -92,13 +100,22 @@ def _used(s: SensorResult) -> str:
     return f"deviations are made of {used} segments, up to {duration(s.longest * s.h)} each"
 
 
+BREAKS = {
+    "gaps": ("gaps", "missing_cells"),
+    "runs of repeats left out": ("repeated_samples", "stuck_samples"),
+    "shocks left out": ("shocks",),
+}
+"""What breaks a log into segments, by the kinds of findings that say so."""
+
+
 def _breaks(log: LogResult, count: int) -> str:
-    """``3 gaps``, or ``3 gaps and shocks`` where shocks were left out of a log."""
-    several = "s" * (count > 1)
-    if any(f.kind == "shocks" for f in log.findings):
-        lost = "gaps" if any(f.kind in ("gaps", "missing_cells") for f in log.findings) else ""
-        return f"{count:,} " + (f"{lost} and shocks" if lost else f"shock{several} left out")
-    return f"{count:,} gap{several}"
+    """``3 gaps``, or ``3 gaps and shocks left out`` where these are of several kinds."""
+    kinds = {f.kind for f in log.findings}
+    found = joined([words for words, of in BREAKS.items() if kinds & set(of)] or ["gaps"])
+    found = found.replace(" left out and", " and")
+    if count == 1:
+        found = found.replace("gaps", "gap").replace("shocks", "shock").replace("runs", "run")
+    return f"{count:,} {found}"
 
 
 def _floors(log: LogResult) -> Iterator[str]:

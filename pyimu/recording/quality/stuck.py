@@ -89,13 +89,21 @@ def _clean_chance(repeats: np.ndarray, starts: np.ndarray, stops: np.ndarray) ->
     return (repeats[-1] - long + len(starts)) / max(len(repeats) - 1 - long, 1)
 
 
-def stuck_findings(name: str, values: np.ndarray, zeroed: bool = False) -> Iterator[Finding]:
-    """A finding ``stuck_samples`` of a column; zeros of one that is ``zeroed`` are none."""
+def hung_runs(values: np.ndarray, zeroed: bool = False) -> list[tuple[int, int]]:
+    """The ``stuck_runs`` of a column (n,) that are not at a limit of its range.
+
+    Zeros of one that is ``zeroed`` are none.
+    """
     runs = [(a, b) for a, b in stuck_runs(values) if not zeroed or values[a] != 0]
     if not runs:
-        return
+        return []
     at_limit = clipped(values)
-    runs = [(a, b) for a, b in runs if not at_limit[a]]
+    return [(a, b) for a, b in runs if not at_limit[a]]
+
+
+def stuck_findings(name: str, values: np.ndarray, zeroed: bool = False) -> Iterator[Finding]:
+    """A finding ``stuck_samples`` of a column; zeros of one that is ``zeroed`` are none."""
+    runs = hung_runs(values, zeroed)
     if runs:
         lengths = [b - a for a, b in runs]
         yield Finding(
@@ -106,13 +114,22 @@ def stuck_findings(name: str, values: np.ndarray, zeroed: bool = False) -> Itera
         )
 
 
+def at_even_intervals(intervals: np.ndarray) -> bool:
+    """Whether ``intervals`` (k,) of rows between events scatter less than those of chance do.
+
+    By chance they have the geometric law: mean m, variance m (m - 1).
+    """
+    mean = float(intervals.mean()) if len(intervals) else 1.0
+    return bool(intervals.var() < REGULAR * mean * (mean - 1)) if mean > 1 else False
+
+
 def held_rows(values: np.ndarray) -> float | None:
     """Rows for which each of ``values`` (n,) is held, None where they are not held.
 
     They are held by a sensor that is slower than its log.
 
     Such values change at regular intervals of two rows and more. Where rounded noise repeats
-    itself by chance, the intervals have the geometric law: mean m, variance m (m - 1). A slow
+    itself by chance, they are not even (``at_even_intervals``). A slow
     motion without noise, rounded, can change regularly, but by one step at a time.
     """
     change = np.diff(values)
@@ -121,7 +138,7 @@ def held_rows(values: np.ndarray) -> float | None:
         return None
     intervals, size = np.diff(at), np.abs(change[at])
     mean = float(intervals.mean())
-    regular = np.median(intervals) >= 2 and intervals.var() < REGULAR * mean * (mean - 1)
+    regular = np.median(intervals) >= 2 and at_even_intervals(intervals)
     return mean if regular and np.mean(size < 1.5 * size.min()) < 0.9 else None
 
 
