@@ -45,6 +45,7 @@ from pyimu.errors import Finding, UserError
 from pyimu.model.catalogue import WHITE
 from pyimu.model.part import Part
 from pyimu.recording.log import Given, recording_of
+from pyimu.recording.quality.false_force import check_force
 from pyimu.recording.recording import Recording
 from pyimu.units import STANDARD_GRAVITY
 
@@ -124,6 +125,7 @@ def run(
     heading0 = None if heading0 is None else number("heading0", heading0)
     _check(q0, heading0, smooth, method)
     gravity = number("gravity", given.get("gravity", STANDARD_GRAVITY))
+    check_force(recording, gravity)
     log = Prepared.of(recording, part, magnetometer, method == OWN, gravity)
     known, field = log.known, log.field
     block = OF_LOGS[method](known)

@@ -21,6 +21,7 @@ from pyimu.characterization.temperature.warm_up import WarmUp
 from pyimu.display.brief import Brief
 from pyimu.errors import Finding
 from pyimu.model.part import AXES, Part
+from pyimu.recording.quality.false_force import false_force
 
 if TYPE_CHECKING:
     from pyimu.characterization.magnetometer.estimate import MagnetometerFit
@@ -240,11 +241,19 @@ class Outcome:
         return tuple(v.name for v in self.logs if any(f.kind == "counts" for f in v.findings))
 
     @property
+    def in_false_unit(self) -> Mapping[str, Finding]:
+        """Names of the logs whose forces have another unit than is stated, with the finding."""
+        found = {log.name: false_force(log.findings) for log in self.logs}
+        return {name: finding for name, finding in found.items() if finding is not None}
+
+    @property
     def no_part(self) -> str:
         """Why no part can be made of the logs; empty where one can."""
         if self.moving:
             return "the log moves"
-        return "the log holds raw counts" if self.in_counts else ""
+        if self.in_counts:
+            return "the log holds raw counts"
+        return "the log's forces have another unit than is stated" if self.in_false_unit else ""
 
     def markov(self, name: str) -> tuple[tuple[float, float], ...]:
         """Gauss-Markov noise of a channel over the logs, slowest first.

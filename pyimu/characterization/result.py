@@ -83,8 +83,9 @@ class Characterization(Outcome):
         """Write ``report.html``, ``report.json`` and ``part.toml`` into the folder ``out``.
 
         ``magnetometer.toml`` is beside them where a log calibrates its magnetometer, and no part
-        where one moves or holds raw counts: its noise would be that of the motion, or in a false
-        unit. All take the place of earlier ones together, once all are made. Gives the page's path.
+        where one moves, or holds raw counts or forces in another unit than is stated: its noise
+        would be that of the motion, or in a false unit. All take the place of earlier ones
+        together, once all are made. Gives the page's path.
         Raises UserError where the folder cannot be written.
         """
         out = Path(out)

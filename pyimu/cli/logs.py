@@ -102,8 +102,8 @@ def characterize_command(
     part give means and their spread. The samples wait in temporary files (TMPDIR says where), so
     that a log may be larger than memory.
 
-    Exit status: 0, or 2 for bad input. With --exit-code it is 17 where a log moves or holds raw
-    counts, of which no part is made and nothing exported.
+    Exit status: 0, or 2 for bad input. With --exit-code it is 17 where a log moves, holds raw
+    counts, or forces in another unit than is stated, of which no part is made and nothing exported.
     """
     from pyimu.characterization.run import characterize
     from pyimu.files import check_folder

@@ -75,6 +75,7 @@ from pyimu.numerics.threads import on_one_thread
 from pyimu.recording.folders import truth_beside
 from pyimu.recording.log import Given, is_one, recording_of
 from pyimu.recording.names import distinct_names
+from pyimu.recording.quality.false_force import check_force
 from pyimu.recording.quality.inspect import beyond_range, inspect, of_reading, rate_of_part
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import has_course
@@ -140,6 +141,9 @@ def close(
             for r in together
             for f in (*rate_of_part(r, start.sample_rate), *beyond_range(r, ranges))
         ]
+    for r in together:
+        if r.accel is not None:
+            check_force(r)
     forget()
     left_out = weightless(quality)
     logs, others = (

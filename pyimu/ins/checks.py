@@ -16,6 +16,7 @@ from pyimu.ins.track import Reference, Track
 from pyimu.recording.clock import runs
 from pyimu.recording.columns import XYZ
 from pyimu.recording.integration import integrated
+from pyimu.recording.quality.false_force import check_force
 from pyimu.recording.quality.spikes import spikes
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import CRAWL
@@ -88,6 +89,7 @@ def check_columns(recording: Recording, gravity: float = STANDARD_GRAVITY) -> No
                 )
     if len(recording.time) < 2:
         raise UserError(f"{recording.name}: one sample, a position over time needs two or more")
+    check_force(recording, gravity)
     known = recording.accel[np.isfinite(recording.accel).all(axis=1)]
     force = float(np.median(np.linalg.norm(known, axis=1))) if len(known) else gravity
     if 1 / ANY_UNIT < force / gravity < ANY_UNIT:

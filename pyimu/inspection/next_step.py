@@ -6,6 +6,7 @@ import shlex
 from pathlib import Path
 
 from pyimu.inspection.outcome import Outcome, rest_share
+from pyimu.recording.quality.false_force import false_force
 
 MAP, OUT = "map.toml", "out"
 """Names of files and folders that nobody has chosen yet."""
@@ -23,7 +24,8 @@ def next_step(found: Outcome, written: Path | None = None) -> list[str]:
     """
     if found.problem and found.kind != "guessed":
         return []
-    if found.readable and (len(found.given) == 1 or found.given_map is not None):
+    right = false_force(found.findings) is None
+    if found.readable and right and (len(found.given) == 1 or found.given_map is not None):
         given = [] if found.given_map is None else ["--columns", str(found.given_map)]
         return ["next:", f"  {_use(found, given)}"]
     file = str(written or MAP)

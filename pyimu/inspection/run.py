@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from pyimu.display.silent import silent
-from pyimu.errors import UserError
+from pyimu.errors import Finding, UserError
 from pyimu.files import parse_toml, read_toml
 from pyimu.inspection.result import Inspection
 from pyimu.recording.column_map import ForeignMap, map_of
@@ -24,6 +24,7 @@ from pyimu.recording.log import Log
 from pyimu.recording.made import with_made_columns
 from pyimu.recording.naming.name import named
 from pyimu.recording.optical import question
+from pyimu.recording.quality.false_force import false_force
 from pyimu.recording.quality.gyro_axes import gyro_findings
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
@@ -85,13 +86,30 @@ def inspect(
             found = _by_numbers(found, readers)
         return replace(found, problem=error.bare)
     say("looking for rests")
+    findings = (*gyro_findings(recording), *quality(recording))
+    false = false_force(findings)
+    if false is not None:
+        right = [_in_right_unit(p, false) for p in proposals]
+        text = text_of(_ordered(right), MapGiven(data, given[0].name))
     return replace(
         found,
         recording=recording,
-        findings=(*gyro_findings(recording), *quality(recording)),
+        column_map=text,
+        findings=findings,
         rests=rests(recording),
         still=is_at_rest(recording),
     )
+
+
+def _in_right_unit(proposal: Proposal, false: Finding) -> Proposal:
+    """What is proposed, the forces in the unit that their gravity shows."""
+    right, stated = false.detail["as"], false.detail["stated"]
+    why = f"by its gravity; the header says {stated}"
+    guesses = [
+        replace(g, unit=right, why=why) if g.group == "accel" and g.value is None else g
+        for g in proposal.guesses
+    ]
+    return replace(proposal, guesses=guesses)
 
 
 def _entry(name: str, own: ForeignMap) -> dict[str, object]:

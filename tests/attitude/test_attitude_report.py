@@ -18,6 +18,7 @@ from pyimu.attitude.error import error_against
 from pyimu.attitude.filter.status import STATUS_NAMES
 from pyimu.attitude.outcome import NIS_BOUNDS
 from pyimu.attitude.report.pictures import euler_std
+from pyimu.errors import UserError
 from pyimu.recording.recording import Recording
 
 OUTSIDE = norm.isf(1e-5)
@@ -157,12 +158,15 @@ def test_what_is_left_in_is_said_before_the_figures(world):
     assert "left in" not in run(recorded(world), part()).report()
 
 
-def test_gravity_in_g_under_another_unit_is_said(world):
+def test_gravity_in_g_under_another_unit_is_refused(world):
     log = recorded(world)
-    found = run(replace(log, accel=log.accel / GRAVITY), part()).report()
-    (line,) = [text for text in found.splitlines() if "note" in text]
-    assert re.search(r"a gravity of (1\.0\d|0\.99\d) m/s\^2, as one in g", line), line
-    assert "as one in g" not in run(log, part()).report()
+    in_g = replace(log, accel=log.accel / GRAVITY)
+    with pytest.raises(
+        UserError, match=r"a gravity of (1|1\.0\d|0\.99\d) m/s\^2.* are in g: write"
+    ):
+        run(in_g, part())
+    # Where gravity is of that size it is no other unit.
+    assert run(in_g, part(), settings={"gravity": 1.0}).findings == run(log, part()).findings
 
 
 # Page, figure and files

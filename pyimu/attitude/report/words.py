@@ -59,13 +59,6 @@ def notes(a: Outcome) -> list[str]:
     unused = [n for n in UNUSED.get(a.method, ()) if getattr(a.recording, n, None) is not None]
     if unused:
         found.append(f"the filter {a.method} uses no column {joined(unused)}")
-    in_g = next((f for f in a.findings if f.kind == "force_in_g"), None)
-    if in_g is not None:
-        found.append(
-            f"the accelerometer shows a gravity of {number(in_g.detail['magnitude'])} m/s^2, as "
-            "one in g does: gravity corrected nothing; write accel_x [g] in the log's header, or "
-            "map it there with --columns"
-        )
     of_field = [_about_field(f) for f in a.magnetometer.findings]
     if a.magnetometer.used and a.magnetometer.is_uneven:
         of_field.append(_about_strength(a.magnetometer))

@@ -31,8 +31,9 @@ def contents(c: Outcome) -> dict[str, Any]:
     """The contents of report.json.
 
     ``level``, the probability of the intervals; ``moving``, the names of logs that do not rest,
-    and ``in_counts``, of those that hold raw counts in a false unit; ``logs``, a list of {``name``,
-    ``rows``, ``duration`` [s], ``quality`` (as in the report of ``pyimu close``), ``sensors``,
+    ``in_counts``, of those that hold raw counts in a false unit, and ``in_false_unit``, of those
+    whose forces have another unit than is stated; ``logs``, a list of {``name``, ``rows``,
+    ``duration`` [s], ``quality`` (as in the report of ``pyimu close``), ``sensors``,
     ``magnetometer``, null where ``magnetometer_reason`` says why, or where there is none};
     ``part``: {channel: {letter: coefficient + ``spread`` over the logs, null for one}};
     ``data_sheet``, null without one or without a part: {``part``, by sensor [{``name``, ``unit``,
@@ -76,6 +77,7 @@ def contents(c: Outcome) -> dict[str, Any]:
             "level": c.level,
             "moving": c.moving,
             "in_counts": c.in_counts,
+            "in_false_unit": tuple(c.in_false_unit),
             "logs": logs,
             "part": part,
             "data_sheet": beside_entry(c),

@@ -8,13 +8,14 @@ import numpy as np
 
 from pyimu.characterization.outcome import LogResult, Outcome, SensorResult
 from pyimu.errors import Finding
+from pyimu.recording.quality.false_force import what_is_false
 from pyimu.report.findings import SENSORS, grouped
 from pyimu.report.numbers import joined, number
 
 TIMES = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (0.0, "s"))
 """Seconds of the units of time, the largest first."""
 
-OF_UNITS = ("gyro_at_rest", "gyro_noisy", "gyro_fast", "force_in_g", "force_unit", "unlikely_rate")
+OF_UNITS = ("gyro_at_rest", "gyro_noisy", "gyro_fast", "unlikely_rate")
 """Kinds of findings that say that a column, or the times, may be in another unit than is stated."""
 
 FAULTS = {
@@ -155,7 +156,7 @@ def doubts(log: LogResult) -> Iterator[str]:
 
 
 def why_no_part(c: Outcome) -> list[str]:
-    """First of all, that a log moves or holds raw counts; nothing of one at rest in a unit."""
+    """First of all, that a log moves, holds raw counts or forces in a false unit; nothing else."""
     said = []
     if c.moving:
         verb = "moves" if len(c.moving) == 1 else "move"
@@ -169,14 +170,19 @@ def why_no_part(c: Outcome) -> list[str]:
             f"{joined(c.in_counts)} {verb} raw counts: what follows is in a false unit, and no "
             "part is written."
         )
+    said += [
+        f"{name}: {what_is_false(finding)}. No part is written."
+        for name, finding in c.in_false_unit.items()
+    ]
     return said
 
 
-def what_it_is(c: Outcome) -> str:
-    """What the coefficients are, where they are not the sensor's own; else nothing."""
+def what_it_is(c: Outcome, kind: str) -> str:
+    """What the coefficients of a sensor are, where they are not its own; else nothing."""
     if c.moving:
         return "noise and motion together"
-    return "in a false unit" if c.in_counts else ""
+    false = c.in_counts or (kind == "accel" and c.in_false_unit)
+    return "in a false unit" if false else ""
 
 
 def _not_at_rest(log: LogResult) -> Iterator[str]:

@@ -120,7 +120,7 @@ def _sensor(c: Outcome, kind: str) -> dict[str, Any]:
     spectra = [_spectrum(log, kind, _named(c, kind), len(c.logs) > 1) for log in logs]
     return {
         "name": SENSORS[kind],
-        "what": what_it_is(c),
+        "what": what_it_is(c, kind),
         "allan": _allan(c, kind),
         "coefficients": coefficient_table(c, kind),
         "models": model_table(c, kind),
@@ -151,7 +151,7 @@ def _characterised(c: Outcome, kind: str) -> bool:
 
 def _named(c: Outcome, kind: str) -> str:
     """The sensor, and what is seen of it where that is not its own noise."""
-    what = what_it_is(c)
+    what = what_it_is(c, kind)
     return SENSORS[kind].capitalize() + (f", {what}" if what else "")
 
 

@@ -55,7 +55,7 @@ def in_lines(c: Outcome) -> str:
 
 def _rows(c: Outcome, kind: str) -> list[tuple[str, ...]]:
     """The coefficients of a sensor, one a row, and its lowest Allan deviations."""
-    what = what_it_is(c)
+    what = what_it_is(c, kind)
     rows = [(f"{SENSORS[kind]} ({what})" if what else SENSORS[kind], "", *AXES)]
     for term in READING_ORDER:
         summaries = [c.coefficients.get((f"{kind}_{axis}", term)) for axis in AXES]

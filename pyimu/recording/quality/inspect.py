@@ -87,13 +87,24 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
         for name, column in zip(names, values.T)
         for finding in _column(name, np.ascontiguousarray(column), name in silent)
     ]
-    quiet = np.zeros((0, 3)) if recording.accel is None else _quietest(recording)
-    force = np.median(quiet, axis=0) if len(quiet) else None
+    quiet, force = _resting_force(recording)
     of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_force_unit(quiet))
     of_gravity += tuple(_no_gravity(quiet))
     warmth = _other_temperature(recording)
     sizes = (*_too_fast(recording), *_at_rest(recording), *of_gravity, *warmth)
     return (*zeroed, *columns, *_spikes(recording), *_jitter(recording), *sizes)
+
+
+def force_findings(recording: Recording) -> tuple[Finding, ...]:
+    """``force_in_g`` and ``force_unit`` alone, of the findings of ``inspect``."""
+    quiet, force = _resting_force(recording)
+    return (*_force_in_g(force), *_force_unit(quiet))
+
+
+def _resting_force(recording: Recording) -> tuple[np.ndarray, np.ndarray | None]:
+    """The force (k, 3) of each of the quietest seconds, and its median (3,), None without one."""
+    quiet = np.zeros((0, 3)) if recording.accel is None else _quietest(recording)
+    return quiet, np.median(quiet, axis=0) if len(quiet) else None
 
 
 def of_reading(recording: Recording) -> tuple[Finding, ...]:
