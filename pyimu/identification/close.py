@@ -42,6 +42,7 @@ from pyimu.identification.reference.gravity import few, rest_trials
 from pyimu.identification.reference.of_itself import made_of_it
 from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
+from pyimu.identification.reference.same_output import own_output
 from pyimu.identification.reference.told import told
 from pyimu.identification.reference.turned import with_rest_of_turn, with_turned_force
 from pyimu.identification.reference.turns import turn_trials
@@ -217,7 +218,8 @@ def _investigated(
             trials, held = turned or (trials, held)
         if trials:
             by_attitude = kind == "gyro" or any(map(is_differentiated, trials))
-            examine = partial(_examined, start, declared, say, own if by_attitude else "")
+            unfit = (own if by_attitude else "") or own_output([*logs, *others], kind)
+            examine = partial(_examined, start, declared, say, unfit)
             looks[kind] = likelier_clock(
                 examine(trials, held),
                 lambda: examine(
