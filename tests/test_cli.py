@@ -18,9 +18,9 @@ from places import same_path
 
 from pyimu import Recording, __version__, part
 from pyimu.cli import app
+from pyimu.cli.choices import complete_part
 from pyimu.cli.logs import EXIT_CODES
 from pyimu.cli.memory import keep_freed
-from pyimu.cli.options import complete_part
 from pyimu.fmu import simulate
 from pyimu.identification.verdict.verdict import VERDICTS
 

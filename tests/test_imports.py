@@ -17,6 +17,7 @@ LATE = {
     "pyimu.cli.bugs",
     "pyimu.cli.attitude",
     "pyimu.cli.campaigns",
+    "pyimu.cli.choices",
     "pyimu.cli.heading",
     "pyimu.cli.inspect",
     "pyimu.cli.logs",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pyimu.cli.choices import complete_part, one_of
 from pyimu.cli.options import (
     Columns,
     Effects,
@@ -17,7 +18,6 @@ from pyimu.cli.options import (
     Quiet,
     add_effects,
     check_told,
-    complete_part,
     place_in_radians,
     progress,
     radians,
@@ -82,6 +82,7 @@ Settings = Annotated[
     typer.Option(
         "--settings",
         help="Filter: ukf, the package's own, or hidalgo2012, as published.",
+        autocompletion=one_of("--settings"),
         show_default="ukf",
     ),
 ]

@@ -7,12 +7,14 @@ from typing import Annotated
 
 import typer
 
+from pyimu.cli.choices import one_of, some_of
 from pyimu.cli.options import (
     Json,
     Out,
     PartName,
     Quiet,
     check_told,
+    option,
     progress,
     radians,
     tell,
@@ -21,7 +23,8 @@ from pyimu.cli.options import (
 from pyimu.errors import UserError
 
 DriveName = Annotated[
-    str, typer.Option("--drive", help="turn-on-spot, straight, obstacle, ackermann or sol.")
+    str,
+    option("--drive", "turn-on-spot, straight, obstacle, ackermann or sol.", one_of("--drive")),
 ]
 Runs = Annotated[int, typer.Option("--runs", help="Runs, from number 0 on.")]
 Seed = Annotated[int, typer.Option("--seed", help="Begins all draws.")]
@@ -51,6 +54,7 @@ Faults = Annotated[
         "--faults",
         help="A run has one of these or none: lost-axis, stuck, saturating, heading-lost, "
         "heading-wrong, separated by commas.",
+        autocompletion=some_of("--faults"),
     ),
 ]
 Sol = Annotated[
@@ -67,7 +71,7 @@ Rate = Annotated[
 ]
 Body = Annotated[
     str | None,
-    typer.Option("--body", help="Earth, Mars or Moon; else the Earth, and of a sol Mars."),
+    option("--body", "Earth, Mars or Moon; else the Earth, and of a sol Mars.", one_of("--body")),
 ]
 Terrains = Annotated[int, typer.Option("--terrains", help="Grounds among the runs.")]
 Number = Annotated[

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pyimu.cli.choices import complete_part, one_of, some_of
 from pyimu.cli.options import (
     FORMATS,
     Columns,
@@ -32,13 +33,18 @@ Logs = Annotated[
 ]
 PartName = Annotated[
     str | None,
-    option("--part", "Built-in part or a TOML file; else the noise is that of the start-up."),
+    option(
+        "--part",
+        "Built-in part or a TOML file; else the noise is that of the start-up.",
+        complete_part,
+    ),
 ]
 Method = Annotated[
     str,
     option(
         "--method",
         "integrate, self-calibration, threshold, paper, filter, or all; separated by commas.",
+        some_of("heading --method"),
     ),
 ]
 Known = Annotated[
@@ -49,7 +55,12 @@ StartUp = Annotated[
     float, option("--start-up", "Seconds of each LOG that are its known motion, else.")
 ]
 By = Annotated[
-    str | None, option("--reference", "heading or rate: what to calibrate by, of the two.")
+    str | None,
+    option(
+        "--reference",
+        "heading or rate: what to calibrate by, of the two.",
+        one_of("heading --reference"),
+    ),
 ]
 Threshold = Annotated[float, option("--threshold", "deg/s; slower rates count as none.")]
 Release = Annotated[

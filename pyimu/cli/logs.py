@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from pyimu.cli.choices import complete_part
 from pyimu.cli.options import (
     FORMATS,
     Columns,
@@ -19,7 +20,6 @@ from pyimu.cli.options import (
     add_effects,
     check_exports,
     check_told,
-    complete_part,
     progress,
     radians,
     tell,

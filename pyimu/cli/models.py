@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pyimu.cli.choices import complete_effect, complete_part, one_of, some_of
 from pyimu.cli.options import (
     Effects,
     Json,
@@ -15,8 +16,8 @@ from pyimu.cli.options import (
     Quiet,
     add_effects,
     check_told,
-    complete_part,
     exported,
+    option,
     progress,
     tell,
     text_of,
@@ -31,7 +32,9 @@ FORMS: dict[str, Form] = {"2": 2, "3": 3, "block": "block"}
 
 
 def rover_command(
-    part: Annotated[str, typer.Option("--part", help="Built-in part or a TOML file.")] = "imt30",
+    part: Annotated[
+        str, option("--part", "Built-in part or a TOML file.", complete_part)
+    ] = "imt30",
     out: Annotated[
         Path, typer.Option("--out", help="Folder for report.html and report.json.")
     ] = Path("out/rover"),
@@ -72,16 +75,25 @@ def plan_command(
             help="Effect to show, as docs/effects.md names it; several by blanks or commas, or "
             "given again.",
             show_default=False,
+            autocompletion=complete_effect,
         ),
     ],
     further: Annotated[
         list[str] | None,
         # A blank ends the value of an option: what follows it are arguments.
-        typer.Argument(metavar="EFFECT", help="Further effects, behind that of --for."),
+        typer.Argument(
+            metavar="EFFECT",
+            help="Further effects, behind that of --for.",
+            autocompletion=complete_effect,
+        ),
     ] = None,
     sensor: Annotated[
         str | None,
-        typer.Option("--sensor", help="gyro or accel; else the first that has the effects."),
+        option(
+            "--sensor",
+            "gyro or accel; else the first that has the effects.",
+            one_of("--sensor"),
+        ),
     ] = None,
     within: Annotated[
         list[str] | None,
@@ -133,17 +145,24 @@ Units = Annotated[
     typer.Option(
         "--fmu",
         help="Which, separated by commas: sensor, ukf, hidalgo2012, heading, rover, low-pass, ins.",
+        autocompletion=some_of("--fmu"),
     ),
 ]
 Forms = Annotated[
     str,
     typer.Option(
-        "--fmi", help="Which forms, separated by commas: 2, 3, block (FMI 3, many samples a step)."
+        "--fmi",
+        help="Which forms, separated by commas: 2, 3, block (FMI 3, many samples a step).",
+        autocompletion=some_of("--fmi"),
     ),
 ]
 Platform = Annotated[
     str,
-    typer.Option("--platform", help="host, or with the package ziglang all, or one by name."),
+    option(
+        "--platform",
+        "host, or with the package ziglang all, or one by name.",
+        one_of("--platform"),
+    ),
 ]
 Specimen = Annotated[
     int | None,
@@ -161,6 +180,7 @@ Drive = Annotated[
         help="Also Rover.ssp, the system of drive, sensor, low-pass and filter: straight, "
         "obstacle, ackermann, turn_on_spot or free.",
         show_default=False,
+        autocompletion=one_of("--ssp"),
     ),
 ]
 
@@ -247,6 +267,7 @@ def export_command(
             help="Projects, separated by commas: kalibr, openvins, vins, gazebo, isaac, ros2, "
             "matlab, px4.",
             show_default=False,
+            autocompletion=some_of("--to"),
         ),
     ],
     out: Out = Path("out/export"),

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from pyimu.cli.choices import complete_part, one_of
 from pyimu.cli.options import (
     Columns,
     Effects,
@@ -32,9 +33,13 @@ PartName = Annotated[
         "--part",
         "Built-in part or a TOML file, such as the model.toml of pyimu close; without it the noise "
         "is the log's own.",
+        complete_part,
     ),
 ]
-Method = Annotated[str, option("--method", "paper, strapdown, filter, smoother, or all.")]
+Method = Annotated[
+    str,
+    option("--method", "paper, strapdown, filter, smoother, or all.", one_of("navigate --method")),
+]
 Zupt = Annotated[
     str,
     option(
@@ -42,6 +47,7 @@ Zupt = Annotated[
         "Rests: auto (column stationary, else the samples), live (as the unit finds them, without "
         "what comes later), foot (auto, and the stances of a sensor on a foot), declared (that "
         "column), off.",
+        one_of("--zupt"),
     ),
 ]
 Nhc = Annotated[bool, option("--nhc", "A vehicle: its wheels slip neither sideways nor upwards.")]

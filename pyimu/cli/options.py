@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from pyimu.cli.choices import Complete, complete_part, some_of
 from pyimu.errors import UserError
 
 if TYPE_CHECKING:
@@ -22,9 +23,9 @@ Out = Annotated[
 ]
 
 
-def option(name: str, text: str) -> Any:
-    """An option of a command, with what ``--help`` says of it."""
-    return typer.Option(name, help=text)
+def option(name: str, text: str, complete: Complete | None = None) -> Any:
+    """An option of a command, with what ``--help`` says of it and what the shell completes."""
+    return typer.Option(name, help=text, autocompletion=complete)
 
 
 FORMATS = "table in text, Parquet, MAT, HDF5, NumPy, JSON, ROS bag, MCAP, ULog or dataflash"
@@ -102,6 +103,7 @@ Export = Annotated[
         "--export",
         metavar="PROJECTS",
         help="Also write the part as other projects read it, as pyimu export --to does.",
+        autocompletion=some_of("--to"),
     ),
 ]
 
@@ -173,15 +175,6 @@ def tell(
         print(data().rstrip("\n"))
     elif not quiet:
         print("\n".join([report(), *lines]))
-
-
-def complete_part(incomplete: str) -> list[str]:
-    """Names of built-in parts for the shell, without loading the package's model."""
-    from importlib.resources import files
-
-    names = (f.name for f in files("pyimu.model").joinpath("parts").iterdir())
-    parts = sorted(n.removesuffix(".toml") for n in names if n.endswith(".toml"))
-    return [name for name in parts if name.startswith(incomplete)]
 
 
 PartName = Annotated[
