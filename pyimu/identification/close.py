@@ -39,6 +39,7 @@ from pyimu.identification.logs.vibration import lines, vibrations
 from pyimu.identification.reference.align import in_band_of
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.gravity import few, rest_trials
+from pyimu.identification.reference.mirrored import mirrored
 from pyimu.identification.reference.of_itself import made_of_it
 from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.positions import positions_wanted, unshown
@@ -77,6 +78,7 @@ from pyimu.recording.folders import truth_beside
 from pyimu.recording.log import Given, is_one, recording_of
 from pyimu.recording.names import distinct_names
 from pyimu.recording.quality.false_force import check_force
+from pyimu.recording.quality.gyro_axes import gyro_axes
 from pyimu.recording.quality.inspect import beyond_range, inspect, of_reading, rate_of_part
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.course import has_course
@@ -133,7 +135,7 @@ def close(
     quality = [
         _of(r.name, f)
         for r in together
-        for f in (*of_reading(r), *inspect(r), *vibrations(r), *lines(r))
+        for f in (*of_reading(r), *inspect(r), *gyro_axes(r), *vibrations(r), *lines(r))
     ]
     if declared is not None:
         ranges = _ranges(start)
@@ -153,7 +155,7 @@ def close(
     )
     logs, others, turning = _on_time(start.gyro, logs, others, latitude)
     found, looks, of_trials = _investigated(
-        start, declared is not None, logs, others, latitude, say, turning
+        start, declared is not None, logs, others, latitude, say, turning, quality
     )
     quality = _with(quality, of_trials)
     if not found:
@@ -190,15 +192,16 @@ def _investigated(
     latitude: float | None,
     say: Say,
     turning: Together,
+    axes: Sequence[Finding],
 ) -> tuple[dict[str, Investigation], dict[str, Look], list[Finding]]:
     """What was found of each sensor that has a reference, and what making its trials found;
-    ``turning`` are the gyro's.
+    ``turning`` are the gyro's, ``axes`` the findings that may say something against its axes.
     """
     found: dict[str, Investigation] = {}
     looks: dict[str, Look] = {}
     quality: list[Finding] = []
     gyros = [*turning[0], *turning[1]]
-    own = told(gyros) or made_of_it(gyros, [*logs, *others])
+    own = told(gyros) or made_of_it(gyros, [*logs, *others]) or mirrored(gyros, axes)
     for kind, make in (("accel", accel_trial), ("gyro", gyro_trial)):
         known, given = {}, (logs, others)
         if kind == "accel":

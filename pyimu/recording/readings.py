@@ -60,6 +60,11 @@ def likely(scatters: np.ndarray, without: np.ndarray, costs: np.ndarray) -> list
     return sorted(left, key=lambda i: (costs[i], sizes[i]))
 
 
+def reading_named(axes: str) -> np.ndarray:
+    """The matrix (3, 3) of which ``named`` gives this text."""
+    return next(matrix for matrix in READINGS if named(matrix) == axes)
+
+
 def named(matrix: np.ndarray) -> str:
     """What the stated columns are by a reading, as "x is -y"; those that stay are left out."""
     said = []

@@ -237,7 +237,8 @@ def _about_field(finding: Finding) -> str:
         return (
             "the magnetic field does not turn in the body as the gyro says, but as if the right "
             f"axes of the magnetometer were others of its columns ({detail['axes']}): it was not "
-            "used; put their names and signs right, in the log or with --columns"
+            "used; put their names and signs right, in the log or with --columns (of the gyro, "
+            "where the body turns about one axis alone: its sign there looks the same)"
         )
     if finding.kind == "mag_not_of_the_place":
         return (

@@ -17,7 +17,8 @@ from pyimu.units import STANDARD_GRAVITY
 UP = np.array([0.0, 0.0, 1.0])
 
 WAYS = {
-    "z points down, as in north-east-down, or the forces' signs are Core Motion's": -UP,
+    "z points down, as in north-east-down, or the forces' signs are Core Motion's, or, where it "
+    "turns about the vertical alone, the gyro's sign is wrong there": -UP,
     "y points up": np.array([0.0, 1.0, 0.0]),
     "y points down, as a camera's does": np.array([0.0, -1.0, 0.0]),
     "x points up": np.array([1.0, 0.0, 0.0]),

@@ -68,13 +68,23 @@ def gyro_findings(recording: Recording) -> tuple[Finding, ...]:
         return ()
     reading = None if recording.accel is None else _by_gravity(recording)
     factor = _factor(recording, reading)
-    found = []
+    found = _axes(recording, reading)
     if factor != 1:
-        found.append(Finding("gyro_unit", "gyro", len(recording), {"factor": factor}))
-    if reading is not None and 0 < reading < len(READINGS):
-        detail = {"axes": named(READINGS[reading])}
-        found.append(Finding("gyro_axes", "gyro", len(recording), detail))
-    return tuple(found)
+        found = (Finding("gyro_unit", "gyro", len(recording), {"factor": factor}), *found)
+    return found
+
+
+def gyro_axes(recording: Recording) -> tuple[Finding, ...]:
+    """``gyro_axes`` alone, of what ``gyro_findings`` gives."""
+    if recording.gyro is None or recording.accel is None:
+        return ()
+    return _axes(recording, _by_gravity(recording))
+
+
+def _axes(recording: Recording, reading: int | None) -> tuple[Finding, ...]:
+    if reading is None or not 0 < reading < len(READINGS):
+        return ()
+    return (Finding("gyro_axes", "gyro", len(recording), {"axes": named(READINGS[reading])}),)
 
 
 def _factor(recording: Recording, reading: int | None) -> float:
