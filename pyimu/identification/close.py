@@ -54,7 +54,7 @@ from pyimu.identification.reference.unfiltered import (
 )
 from pyimu.identification.reference.upright import with_upright_places
 from pyimu.identification.result import Closed
-from pyimu.identification.rivals.clock_or_effect import likelier_clock
+from pyimu.identification.rivals.clock_or_effect import likelier_clock, on_their_clocks
 from pyimu.identification.rivals.gain_or_scale import (
     held_shares,
     let_go,
@@ -223,17 +223,27 @@ def _investigated(
             by_attitude = kind == "gyro" or any(map(is_differentiated, trials))
             unfit = (own if by_attitude else "") or own_output([*logs, *others], kind)
             examine = partial(_examined, start, declared, say, unfit)
+            remade = partial(_remade, examine, made, bool(others))
             looks[kind] = likelier_clock(
-                examine(trials, held),
-                lambda: examine(
-                    *_in_bands_of([*trials, *held], prepared(*made(lines=False), bool(others)))
-                ),
+                examine(trials, held), partial(remade, [*trials, *held], lines=False)
             )
+            looks[kind] = on_their_clocks(looks[kind], partial(remade, may_be_late=False))
             found[kind] = looks[kind].investigation
             trials, held = list(found[kind].before.trials), list(found[kind].held)
             quality += late_thermometers(found[kind])
         quality += _of_trials([*trials, *held])
     return {k: found[k] for k in ("gyro", "accel") if k in found}, looks, quality
+
+
+def _remade(
+    examine: Callable[..., Look],
+    made: Callable[..., Together],
+    others: bool,
+    in_bands_of: Sequence[Trial] = (),
+    **differently: bool,
+) -> Look:
+    """What is found in trials that are ``made`` anew, in the bands of others of the same logs."""
+    return examine(*_in_bands_of(in_bands_of, prepared(*made(**differently), others)))
 
 
 def _in_bands_of(

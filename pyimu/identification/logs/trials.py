@@ -51,10 +51,12 @@ def aligned_trials(
     latitude: float | None,
     lines: bool = True,
     known: Mapping[str, Clock] = MappingProxyType({}),
+    may_be_late: bool = True,
 ) -> Together:
     """Trials of ``logs`` and ``others`` that ``make`` makes, the references on the sensor's clock;
     one that seems to drift a little has its line where ``lines`` are wanted. ``known`` are clocks
-    that another sensor showed, by log.
+    that another sensor showed, by log; a lag in common is the clocks' where the sensor is not one
+    that ``may_be_late``.
     """
 
     def trial(r: Recording) -> Trial | None:
@@ -65,7 +67,7 @@ def aligned_trials(
 
     fitted = [t for t in map(trial, logs) if t is not None and t.count >= SHORTEST]
     apart = [t for t in map(trial, others) if t is not None and t.count >= SHORTEST]
-    clocked = list(with_mounting(aligned(fitted, apart, sensor, lines, known)))
+    clocked = list(with_mounting(aligned(fitted, apart, sensor, lines, known, may_be_late)))
     clocked = [with_steady_heading(with_one_mounting(t)) for t in clocked]
     return clocked[: len(fitted)], clocked[len(fitted) :]
 

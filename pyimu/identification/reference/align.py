@@ -49,6 +49,7 @@ def aligned(
     sensor: Sensor,
     lines: bool = True,
     known: Mapping[str, Clock] = MappingProxyType({}),
+    may_be_late: bool = True,
 ) -> list[Trial]:
     """All trials, fitted and ``held``, with the reference's clock taken out; ``known`` is that of
     logs, by name, that another sensor showed: it counts where this one shows none.
@@ -58,18 +59,17 @@ def aligned(
     A lag may be the sensor's own where all fitted logs have it in common and the sensor is late. It
     is left in then, for the effects that make one; beside references in files of their own, on
     another clock, where a second log, fitted or held, has it too. The clock's is what differs from
-    log to log,
-    wanders, makes the sensor early, is longer than any sensor's, or lies beside a clock that
-    somebody set, a lag that was undone, or samples that waited to be read in bursts. A clock that
-    seems to drift or to wander by less than a sample is ``doubtful``, and has one lag where
-    ``lines`` are not wanted.
+    log to log, wanders, makes the sensor early, is longer than any sensor's, or lies beside a clock
+    that somebody set, a lag that was undone, or samples that waited to be read in bursts, and all
+    where the sensor is not one that ``may_be_late``. A clock that seems to drift or to wander by
+    less than a sample is ``doubtful``, and has one lag where ``lines`` are not wanted.
     """
     clocks = [_clock(t, sensor, lines) for t in trials]
     clocks += [_clock(t, sensor, lines, apart=True) for t in held]
     both = zip((*trials, *held), clocks, strict=True)
     clocks = [_or_known(t, c, known.get(t.name)) for t, c in both]
     seen, others = _seen(clocks[: len(trials)]), _seen(clocks[len(trials) :])
-    theirs = any(leaves_a_lag(f) for t in trials for f in t.findings)
+    theirs = not may_be_late or any(leaves_a_lag(f) for t in trials for f in t.findings)
     own, std = 0.0 if theirs else in_common(seen), _std_of_mean(seen)
     if own and len(seen) == 1 and any(t.reference_apart for t in trials):
         clocks = [c and replace(c, or_sensor=not others) for c in clocks]

@@ -1,18 +1,26 @@
 """Whether a reference's clock drifts or wanders, or an effect makes it look so.
 
 A clock that does so by less than a sample, and an effect that follows the motion, bend the lags of
-a log alike. What the search finds beside each is the evidence.
+a log alike. What the search finds beside each is the evidence. And a clock that drifts is set at no
+instant that is known: a delay beside it is no more the sensor's than one that differs from log to
+log.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
+from pyimu.identification.fit.clock import WIDE
+from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import LogClock
 from pyimu.identification.fit.maximum_likelihood import advantage
 from pyimu.identification.fit.score import tally
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.formula.effect import put
 from pyimu.identification.formula.search import Look
+from pyimu.identification.reference.align import ALIKE
 from pyimu.identification.reference.track import WANDERS
 from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.screen import PENALTY
@@ -49,6 +57,30 @@ def likelier_clock(one: Look, keeps: Callable[[], Look]) -> Look:
     if one.formula is not None:
         put(one.formula.effect)
     return one
+
+
+def on_their_clocks(one: Look, taken_out: Callable[[], Look]) -> Look:
+    """``one``, what was found where all that the sensor is late was left to it; where it is late by
+    more in the course of a log, what is found with that ``taken_out`` as the clocks'.
+    """
+    inv = one.investigation
+    named = any(CATALOGUE[s.effect].delay is not None for s in inv.steps)
+    if not named or not any(_drifts(inv.after, t) for t in inv.after.trials):
+        return one
+    _forget(one)
+    return taken_out()
+
+
+def _drifts(fitted: Fit, trial: Trial) -> bool:
+    """Whether the lag of a log that was left to the sensor changes in it, beyond chance and by more
+    than a lag of the sensor does, which is another at each frequency.
+    """
+    change = fitted.states[trial.name].clock
+    if trial.clock is None or not trial.clock.own or change is None:
+        return False
+    std = fitted.std.get(LogClock(trial.name, 1), np.inf)
+    grows = abs(change.drift) * float(trial.time[-1] - trial.time[0])
+    return abs(change.drift) > WIDE * std and grows > ALIKE * trial.clock.own
 
 
 def _is_clean(look: Look) -> bool:
