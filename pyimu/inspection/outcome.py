@@ -107,6 +107,8 @@ class Outcome:
             )
         for proposal in self.proposals:
             yield from (f"  or: {note}" for note in proposal.notes)
+        if any(proposal.offers for proposal in self.proposals):
+            yield "  lines to read what is left out stand in the map (--write-map), with a # before"
         if self.recording is not None:
             yield from _of_recording(self.recording, self.rests, self.still)
             for said in grouped(self.findings):

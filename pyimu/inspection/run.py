@@ -66,6 +66,8 @@ def inspect(
     if guessed:
         kind = "guessed"
     proposals = _proposals(readers, maps, foreign)
+    if foreign is None and (kind == "own" or (known is not None and known[0] == STATED)):
+        _with_offers(proposals[0], readers[0])
     if known is not None:
         kinds = [_entry(name, own) for name, own in known[1].files]
         data = {"frame": known[1].frame, **({"file": kinds} if kinds else {})}
@@ -204,6 +206,24 @@ def _proposals(
         for proposal in found:
             proposal.guesses = [_sized(guess, foreign) for guess in proposal.guesses]
     return found
+
+
+def _with_offers(found: Proposal, reader: Reader) -> None:
+    """Add what the columns may be that a header with units says nothing of."""
+    try:
+        guessed = proposed(reader)
+    except UserError:
+        return
+    taken = {g.cell for g in found.guesses}
+    for offer in guessed.offers:
+        if not taken & {g.cell for g in offer.guesses}:
+            found.offer(offer.note, offer.guesses)
+    left = [g for g in guessed.guesses if g.cell not in taken and g.group not in found.groups]
+    for group in dict.fromkeys(g.group for g in left):
+        own = [g for g in left if g.group == group]
+        cells = ", ".join(g.cell for g in own)
+        verb = "is" if len(own) == 1 else "are"
+        found.offer(f"{cells} {verb} left out: {', '.join(g.target for g in own)}?", own)
 
 
 def _once(proposals: Sequence[Proposal]) -> None:

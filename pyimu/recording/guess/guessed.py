@@ -39,19 +39,30 @@ class Guess:
         return GROUP_OF[self.target]
 
 
+@dataclass(frozen=True)
+class Offer:
+    """Columns that are left out as long as nobody says that they are wanted: the ``guesses`` by
+    which they would be read, and a ``note`` on what they may be.
+    """
+
+    note: str
+    guesses: tuple[Guess, ...]
+
+
 @dataclass(repr=False)
 class Proposal(Brief):
     """What the columns of a file may be.
 
-    ``notes`` say what else could be meant; ``rate`` [Hz] is what the file says of itself, or
-    a map of it, where it has no times; ``topic`` the word in its rows, of a file with those of
-    several sensors.
+    ``notes`` say what else could be meant, ``offers`` are those of them with lines for a map;
+    ``rate`` [Hz] is what the file says of itself, or a map of it, where it has no times; ``topic``
+    the word in its rows, of a file with those of several sensors.
     """
 
     path: Path
     header: tuple[str, ...]
     guesses: list[Guess] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    offers: list[Offer] = field(default_factory=list)
     rate: float | None = None
     topic: str = ""
 
@@ -87,6 +98,11 @@ class Proposal(Brief):
     @property
     def groups(self) -> list[str]:
         return list(dict.fromkeys(g.group for g in self.guesses))
+
+    def offer(self, note: str, guesses: Sequence[Guess]) -> None:
+        """Note columns that are left out, with what would read them."""
+        self.notes.append(note)
+        self.offers.append(Offer(note, tuple(guesses)))
 
     def add(self, guesses: Sequence[Guess]) -> None:
         self.guesses += guesses

@@ -37,18 +37,32 @@ def add_received(found: Proposal, reader: Reader, numbers: Numbers, at: Mapping[
     if not at:
         return
     cells = ", ".join(reader.header[k] for k in at.values())
-    if {"gyro", "accel"} & set(found.groups):
+    beside = bool({"gyro", "accel"} & set(found.groups))
+    place = _unit(numbers, at) if set(FIXES["ref"]) <= set(at) else None
+    if beside:
         said = ", ".join(at)
-        found.notes.append(f"{cells} are left out: a reference's {said}, or measured (position_)?")
+        found.offer(
+            f"{cells} are left out: a reference's {said}, or measured (position_)?",
+            [
+                replace(_guess(reader, target, k, place), target=name)
+                for target, k in at.items()
+                for name in (target, measured(target))
+            ],
+        )
         return
     left = _in_counts(numbers, at)
     if left:
         cells = ", ".join(reader.header[at[target]] for target in left)
         found.notes.append(f"{cells} are left out: whole numbers, of mm, cm/s or mm/s?")
         at = {target: k for target, k in at.items() if target not in left}
-    place = _unit(numbers, at) if set(FIXES["ref"]) <= set(at) else None
     found.add([_guess(reader, target, k, place) for target, k in at.items()])
     found.guesses = [_timed(reader, numbers, guess) for guess in found.guesses]
+
+
+def measured(target: str) -> str:
+    """What a reference's place or velocity is called where the receiver measured it."""
+    own = target.removeprefix("ref_")
+    return own if own.startswith("velocity") else f"position_{own}"
 
 
 def _in_counts(numbers: Numbers, at: Mapping[str, int]) -> list[str]:

@@ -40,8 +40,10 @@ def add_reference(found: Proposal, reader: Reader, attitudes: Sequence[dict[str,
         found.notes += of_bodies
         for four in [] if of_bodies else attitudes:
             cells = ", ".join(reader.header[four[a]] for a in "wxyz")
-            found.notes.append(
-                f"{cells} are left out: an estimate, or a reference's ref_q_w to ref_q_z?"
+            why = "an estimate, or a reference? body to world? see [frame]"
+            found.offer(
+                f"{cells} are left out: an estimate, or a reference's ref_q_w to ref_q_z?",
+                [Guess(reader.header[four[a]], f"ref_q_{a}", "1", why) for a in "wxyz"],
             )
         return
     why = f"{why} see [frame]"
@@ -57,18 +59,20 @@ def add_angles(found: Proposal, reader: Reader, numbers: Numbers) -> None:
     if not at or not set(at.values()) <= set(numbers.positions) or "ref_q" in found.groups:
         return
     cells = [reader.header[at[target]] for target in ANGLES]
-    if {"gyro", "accel"} & set(found.groups) and not all(map(is_truth, cells)):
-        found.notes.append(
-            f"{', '.join(cells)} are left out: an estimate, or a reference's {', '.join(ANGLES)}?"
-        )
-        return
     units = {named(cell).unit for cell in cells}
     unit = units.pop() if len(units) == 1 else None
     guess = UnitGuess(unit, "the header says so")
     if unit is None or not same_dimension(unit, "rad"):
         guess = angle_unit(numbers.of([at[target] for target in ANGLES]))
     why = f"{guess.why}; yaw first, then pitch, then roll? from north, or nose up: see [frame]"
-    found.add([Guess(c, t, guess.unit, why) for c, t in zip(cells, ANGLES, strict=True)])
+    made = [Guess(c, t, guess.unit, why) for c, t in zip(cells, ANGLES, strict=True)]
+    if {"gyro", "accel"} & set(found.groups) and not all(map(is_truth, cells)):
+        found.offer(
+            f"{', '.join(cells)} are left out: an estimate, or a reference's {', '.join(ANGLES)}?",
+            made,
+        )
+    else:
+        found.add(made)
 
 
 def add_place(found: Proposal, reader: Reader, place: Mapping[str, int]) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from pyimu.recording.columns import column_names
-from pyimu.recording.guess.guessed import CHOICES, Guess, Proposal
+from pyimu.recording.guess.guessed import CHOICES, Guess, Offer, Proposal
 
 WIDTH = 46
 """Characters in front of a remark."""
@@ -77,13 +77,13 @@ def text_of(proposals: Sequence[Proposal], given: MapGiven = MapGiven()) -> str:
         lines += ["# " + _rate(100.0)]
     if "time_offset" in given.data:
         lines += ["", f"time_offset = {_value(given.data['time_offset'])}"]
-    lines += ["", "[columns]", *_columns(first.guesses)]
+    lines += ["", "[columns]", *_columns(first.guesses), *_offered(first.offers)]
     lines += _scales(first.guesses, "scale", given.scale(first.path))
     for other in others:
         lines += ["", "[[file]]", f"name = {_value(other.path.name)}"]
         lines += [f"topic = {_value(other.topic)}"] if other.topic else []
         lines += [] if other.rate is None else [_rate(other.rate)]
-        lines += ["", "[file.columns]", *_columns(other.guesses)]
+        lines += ["", "[file.columns]", *_columns(other.guesses), *_offered(other.offers)]
         lines += _scales(other.guesses, "file.scale", given.scale(other.path))
     for entry in given.files({p.path.name for p in proposals}):
         lines += ["", "[[file]]", *_entries(entry)]
@@ -91,7 +91,8 @@ def text_of(proposals: Sequence[Proposal], given: MapGiven = MapGiven()) -> str:
         lines += ["", "[topics]", f"imu = {_value(first.topic)}"]
     if "topics" in given.data:
         lines += ["", "[topics]", *_entries(given.data["topics"])]
-    notes = [note for p in proposals for note in p.notes]
+    with_lines = {offer.note for p in proposals for offer in p.offers}
+    notes = [note for p in proposals for note in p.notes if note not in with_lines]
     if notes:
         lines += ["", "# What else could be meant:", *(f"# {note}" for note in notes)]
     frame = given.data.get("frame")
@@ -115,6 +116,23 @@ def _columns(guesses: Sequence[Guess]) -> list[str]:
         unit = guess.unit if guess.value is None else "count"
         lines.append(_remarked(_line(guess, unit), guess.why))
     return lines
+
+
+def _offered(offers: Sequence[Offer]) -> list[str]:
+    """The lines for columns that are left out, each with a # before it."""
+    lines = []
+    for offer in offers:
+        lines += ["#", f"# {offer.note}"]
+        for guess in offer.guesses:
+            lines += [_remarked(f"# {_line(guess, u)}", guess.why) for u in _units(guess)]
+    return lines
+
+
+def _units(guess: Guess) -> Sequence[str]:
+    """In which units a column that is left out may be."""
+    if guess.value is not None:
+        return ("count",)
+    return guess.choices or CHOICES[guess.group] if guess.unit is None else (guess.unit,)
 
 
 def _line(guess: Guess, unit: str) -> str:
