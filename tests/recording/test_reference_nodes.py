@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from scipy.spatial.transform import Rotation, Slerp
+from scipy.interpolate import CubicSpline
+from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.nodes import own_samples
@@ -62,3 +63,19 @@ def test_values_that_are_repeated_are_no_interpolation(hz):
     latest = np.searchsorted(at, time + 1e-9, side="right") - 1
     log = recording(time, attitude(rng, at)[latest])
     assert own_samples(log) is log
+
+
+@pytest.mark.parametrize("ratio", [2, 4, 7])
+@pytest.mark.parametrize("spline", ["rotations", "quaternions"])
+def test_samples_that_a_spline_joins_are_found(spline, ratio):
+    rng, time = np.random.default_rng(ratio), np.arange(0.0, SECONDS, 0.01)
+    at = time[1::ratio]
+    nodes = attitude(rng, at)
+    if spline == "rotations":
+        rows = RotationSpline(at, nodes)(time)
+    else:
+        q = nodes.as_quat()
+        q *= np.cumprod(np.append(1.0, np.sign(np.sum(q[1:] * q[:-1], axis=1))))[:, None]
+        rows = Rotation.from_quat(CubicSpline(at, q)(time))
+    found = own_samples(recording(time, rows))
+    assert_allclose(found.time, at)

@@ -14,7 +14,7 @@ from scipy.fft import next_fast_len, rfft
 from scipy.spatial.transform import Rotation
 
 from pyimu.recording.recording import Recording, at_own_times
-from pyimu.recording.reference import close_nodes
+from pyimu.recording.reference import close_nodes, spline_nodes
 
 LEAST = 16
 """Samples that must be seen."""
@@ -47,13 +47,17 @@ CLOSE = 0.05
 
 def own_samples(source: Recording) -> Recording:
     """The reference with the samples of ``ref_q`` that its rows were interpolated from, where they
-    were along shortest arcs; else as it is.
+    were along shortest arcs, or every second to tenth row, joined by a spline; else as it is.
     """
     known = np.flatnonzero(np.isfinite(source.ref_q).all(axis=1))
     if len(known) < 4 * LEAST:
         return source
     time = source.time[known]
     attitude = Rotation.from_quat(source.ref_q[known], scalar_first=True)
+    splined = spline_nodes.every(time, attitude) if _is_even(time) else None
+    if splined is not None:
+        rows = known[splined[0] :: splined[1]]
+        return at_own_times(source, source.time[rows], ref_q=source.ref_q[rows])
     found = _met(time, (attitude[:-1].inv() * attitude[1:]).as_rotvec())
     if found is None:
         return source
@@ -91,6 +95,12 @@ def _met(time: np.ndarray, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray, n
     good = np.isfinite(rate[row - 1]).all(axis=1) & np.isfinite(rate[row]).all(axis=1)
     at, row = at[good], row[good]
     return at, row, rate[row - 1] * (at - time[row])[:, None]
+
+
+def _is_even(time: np.ndarray) -> bool:
+    """Whether times (n,) have no gap."""
+    step = np.diff(time)
+    return bool(step.max() < 1.5 * np.median(step))
 
 
 def _is_held(steps: np.ndarray) -> bool:
