@@ -1,5 +1,5 @@
-"""Folders that are one log: a phone's, a MetaMotion's or an NGIMU's, KITTI's ``oxts`` or the drive
-around it, and a sequence of EuRoC MAV or TUM VI with its ground truth.
+"""Folders that are one log: a phone's, a MetaMotion's or an NGIMU's, comma2k19's, KITTI's ``oxts``
+or the drive around it, and a sequence of EuRoC MAV or TUM VI with its ground truth.
 
 The sequence's layout is that of Burri et al. 2016 (EuRoC), which TUM VI keeps: ``mav0`` with a
 folder for each instrument, each with its ``data.csv``.
@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from pyimu.files import exists
 from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.comma import of_comma
 from pyimu.recording.formats.oxts import oxts_in
 from pyimu.recording.formats.text import CsvReader
 from pyimu.recording.phone import is_phone, of_phone
@@ -24,7 +25,7 @@ TRUTHS = ("state_groundtruth_estimate0", "mocap0", "vicon0")
 NGIMU = "sensors.csv"
 """What x-io's programs call the file of gyro, accelerometer and magnetometer of one device."""
 
-LAYERS = ("mav0", IMU, "oxts")
+LAYERS = ("mav0", IMU, "oxts", "IMU", "processed_log")
 """Folders inside a sequence, which do not name it."""
 
 
@@ -47,6 +48,9 @@ def log_in(folder: Path) -> FolderLog | None:
     if is_phone(folder):
         return FolderLog(folder.resolve().name, *of_phone(folder))
     named = next(p for p in (folder.resolve(), *folder.resolve().parents) if p.name not in LAYERS)
+    comma = of_comma(folder)
+    if comma is not None:
+        return FolderLog(named.name, *comma)
     oxts = oxts_in(folder)
     if oxts is not None:
         return FolderLog(named.name, oxts, ForeignMap())

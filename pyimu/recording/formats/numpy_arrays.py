@@ -42,7 +42,7 @@ class NpyReader(DatasetReader):
     def open(cls, path: Path) -> NpyReader:
         """Raises UserError for a file that is none, and for an array that is no table."""
         with reading(path, "NPY"), path.open("rb") as stream:
-            shape, dtype = _header(path, stream)
+            shape, dtype = array_header(path, stream)
         columns = columns_of("", shape, _timed(dtype))
         if not columns:
             size = " x ".join(map(str, shape)) or "one"
@@ -111,7 +111,7 @@ class _Unpacked(dict[str, np.ndarray]):
 
     def __missing__(self, name: str) -> np.ndarray:
         with self._archive.open(f"{name}.npy") as stream:
-            shaped = _header(self._path, stream)
+            shaped = array_header(self._path, stream)
         self._held += _bytes(shaped)
         if self._held > MOST:
             raise UserError(
@@ -139,7 +139,7 @@ def _members(path: Path, archive: zipfile.ZipFile) -> tuple[dict[str, Shaped], l
             continue
         with archive.open(member) as stream:
             try:
-                shape, dtype = _header(path, stream)
+                shape, dtype = array_header(path, stream)
             except UserError:
                 left.append(f"{name} (objects of Python, save arrays)")
                 continue
@@ -153,7 +153,7 @@ def _members(path: Path, archive: zipfile.ZipFile) -> tuple[dict[str, Shaped], l
     return shaped, left
 
 
-def _header(path: Path, stream: IO[bytes]) -> Shaped:
+def array_header(path: Path, stream: IO[bytes]) -> Shaped:
     """Shape and type by the header of an array, behind which the ``stream`` stands then.
 
     Raises UserError for one of objects.

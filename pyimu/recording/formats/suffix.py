@@ -28,6 +28,7 @@ from pyimu.recording.formats.oxts import OxtsReader, oxts_in
 from pyimu.recording.formats.parquet import ParquetReader
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.text import CsvReader
+from pyimu.recording.formats.timed_array import TimedArrayReader, is_timed_array
 from pyimu.recording.formats.ulog import UlogReader
 
 TEXTS = (
@@ -97,6 +98,8 @@ def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
     folder = exists(path) and path.is_dir()
     if folder and oxts_in(path) == path and not topics:
         return OxtsReader.open(path)
+    if folder and is_timed_array(path) and not topics:
+        return TimedArrayReader.open(path)
     if folder and not (path / "metadata.yaml").is_file():
         raise UserError(f"{path}: a folder, give the files in it{_tables_in(path)}")
     if not folder:
