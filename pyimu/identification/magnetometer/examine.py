@@ -266,5 +266,6 @@ def _errors(before: MagnetometerCalibration, after: MagnetometerCalibration, h: 
         left = h.rows.mag - predicted(c, h.rows, of_log)
         sums.append(ErrorSums(np.sum(left**2, axis=0), np.full(3, float(len(left)))))
     rows = np.full(3, float(len(h.rows)))
-    floor = ErrorSums(rows * np.nan_to_num(h.rows.white) ** 2, rows)
+    noise = np.nan_to_num(h.rows.white) ** 2 + np.nan_to_num(h.rows.turned) ** 2
+    floor = ErrorSums(rows * noise, rows)
     return Errors("T", *sums, floor, ErrorSums())

@@ -10,7 +10,7 @@ knows only the vertical, the yaw is known as well, so that the axes need no dip 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -25,7 +25,7 @@ from pyimu.characterization.magnetometer.constancy import (
     ROUNDS,
     SETTLED,
 )
-from pyimu.identification.magnetometer.rows import FieldRows, unit_of
+from pyimu.identification.magnetometer.rows import FieldRows, mean_field, unit_of
 
 BIAS, MATRIX, OF_LOG = slice(0, 3), slice(3, 12), 4
 """Where the unknowns are, and how many each log has beside them: field and delay."""
@@ -133,9 +133,8 @@ def shown(covariance: np.ndarray) -> np.ndarray:
 
 
 def _in_unit(rows: FieldRows, unit: float) -> FieldRows:
-    return FieldRows(
-        rows.name, rows.time, rows.mag / unit, rows.axes, rows.passing, rows.white / unit
-    )
+    of_field = ("mag", "white", "turned")
+    return replace(rows, **{n: getattr(rows, n) / unit for n in of_field})
 
 
 def _of_determinant_one(matrix: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
@@ -160,8 +159,7 @@ class _Problem:
 
     def _first(self, rows: FieldRows) -> np.ndarray:
         """The mean field of a log, and no delay."""
-        world = np.einsum("kji,kj->ki", rows.axes, rows.mag)
-        return np.append(np.median(world, axis=0), 0.0)
+        return np.append(mean_field(rows.axes, rows.mag), 0.0)
 
     def solved(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The unknowns, the covariance that independent errors give them, and by how much (blocks,
@@ -252,9 +250,10 @@ def weakest(logs: Sequence[FieldRows]) -> float:
     count = sum(map(len, rows))
     every = Rotation.random(ROUND_THE_CLOCK, np.random.default_rng(0)).as_matrix()
     world = rows[0]
-    field = np.median(np.einsum("kji,kj->ki", world.axes, world.mag), axis=0)
+    field = mean_field(world.axes, world.mag)
     blank = np.zeros_like(every)
-    full = FieldRows("", np.arange(len(every)), every @ field, every, blank, world.white)
+    still = world.white, world.turned
+    full = FieldRows("", np.arange(len(every)), every @ field, every, blank, *still)
     whole = _information(full) * count / len(every)
     root = np.linalg.inv(np.linalg.cholesky(whole))
     return float(np.linalg.eigvalsh(root @ seen @ root.T)[0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -29,7 +30,8 @@ class FieldRows:
     """Samples ``mag`` (k, 3) T of a log at ``time`` (k,) s.
 
     ``axes`` (k, 3, 3) turn world axes into the sensor's, ``passing`` (k, 3, 3) 1/s is their change.
-    ``white`` (3,) T is the standard deviation of a sample's white noise, in the quietest seconds.
+    ``white`` (3,) T is the standard deviation of a sample's white noise, in the quietest seconds,
+    ``turned`` (3,) T that of the field that the reference's attitudes, with their own noise, turn.
     """
 
     name: str
@@ -38,6 +40,7 @@ class FieldRows:
     axes: np.ndarray
     passing: np.ndarray
     white: np.ndarray
+    turned: np.ndarray
 
     def __len__(self) -> int:
         return len(self.time)
@@ -74,7 +77,7 @@ class FieldRows:
             return sums / count.reshape(-1, *([1] * (values.ndim - 1)))
 
         means = (mean(v) for v in (self.time, self.mag, self.axes, self.passing))
-        return FieldRows(self.name, *means, self.white)
+        return FieldRows(self.name, *means, self.white, self.turned)
 
 
 def field_rows(recording: Recording, mounting: np.ndarray, clock: Clock | None) -> FieldRows | None:
@@ -100,9 +103,17 @@ def field_rows(recording: Recording, mounting: np.ndarray, clock: Clock | None) 
         if b - a >= LEAST:
             passing[a:b] = np.gradient(axes[a:b], time[a:b], axis=0)
             kept[a:b] = True
-    white = quiet_noise(mag, _segments(time), float(np.median(np.diff(time))))
-    whole = FieldRows(recording.name, time, mag, axes, passing, white)
+    noise_of = partial(quiet_noise, segments=_segments(time), h=float(np.median(np.diff(time))))
+    turned = noise_of(axes @ mean_field(axes, mag))
+    whole = FieldRows(recording.name, time, mag, axes, passing, noise_of(mag), turned)
     return whole._taken(kept) if kept.any() else None
+
+
+def mean_field(axes: np.ndarray, mag: np.ndarray) -> np.ndarray:
+    """The mean (3,) of samples ``mag`` (k, 3) in world axes, which ``axes`` (k, 3, 3) turn into the
+    sensor's.
+    """
+    return np.median(np.einsum("kji,kj->ki", axes, mag), axis=0)
 
 
 def _segments(time: np.ndarray) -> list[tuple[int, int]]:

@@ -160,7 +160,8 @@ def error_notes(closed: Outcome) -> list[str]:
     if MAGNETOMETER in closed.errors:
         notes.append(
             "The magnetometer is compared sample by sample, in no band, with a field that is the "
-            "same everywhere, turned by the reference; its floor has its own noise alone."
+            "same everywhere, turned by the reference; its floor has its own noise, and what the "
+            "noise of the reference's attitudes makes of that field."
         )
     return notes
 
