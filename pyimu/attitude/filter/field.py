@@ -23,7 +23,7 @@ DELAY = 0.01
 """s; standard deviation of a magnetometer's delay behind the gyro before the run shows it: half a
 period of one at 50 Hz."""
 
-FIELD = 41
+FIELD = 42
 """Numbers of a ``Field``."""
 
 ATTITUDES = 60.0
@@ -44,7 +44,9 @@ class Field:
     what each of its numbers is off, ``beside`` rad the heading's innovation without noise. ``late``
     (2,) is the magnetometer's delay in s and its information in 1/s^2. ``other`` (2,) T is the
     field of a disturbance, which has lasted for ``other_for`` s; the known one has been seen for
-    ``known_for`` s. ``turned`` (2,) rad are the
+    ``known_for`` s. ``bent`` rad^2 is the variance of the direction that the field may have here for
+    good, beside what every place has, as another one has been seen or the heading contradicted it.
+    ``turned`` (2,) rad are the
     estimated ``PARTS`` of the angle from the magnetic north to the field's direction,
     ``covariance`` (2, 2) their own, ``shared`` (9, 2) that with the error of the estimate. ``held``
     (3,) T is the last sample, ``since`` s the time since it came. ``off`` says whether the last one
@@ -60,6 +62,7 @@ class Field:
     other: ca.SX
     other_for: ca.SX
     known_for: ca.SX
+    bent: ca.SX
     turned: ca.SX
     covariance: ca.SX
     shared: ca.SX
@@ -68,13 +71,13 @@ class Field:
     off: ca.SX
 
     def pack(self) -> ca.SX:
-        """The memory as a column (41,)."""
+        """The memory as a column (42,)."""
         flat = {"covariance": pack(self.covariance), "shared": ca.vec(self.shared)}
         return ca.densify(ca.vertcat(*(vars(self) | flat).values()))
 
     @classmethod
     def unpack(cls, column) -> Field:
-        ends = [0, 2, 3, 5, 6, 7, 9, 11, 12, 13, 15, 18, 36, 39, 40, FIELD]
+        ends = [0, 2, 3, 5, 6, 7, 9, 11, 12, 13, 14, 16, 19, 37, 40, 41, FIELD]
         parts = dict(zip(cls.__dataclass_fields__, ca.vertsplit(column, ends), strict=True))
         covariance, shared = unpack(parts["covariance"], PARTS), parts["shared"]
         matrices = {"covariance": covariance, "shared": ca.reshape(shared, 9, PARTS)}
@@ -95,6 +98,7 @@ class Field:
             other=two,
             other_for=one,
             known_for=one,
+            bent=one,
             turned=two,
             covariance=ca.SX.zeros(PARTS, PARTS),
             shared=ca.SX.zeros(9, PARTS),

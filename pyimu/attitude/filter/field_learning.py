@@ -8,6 +8,7 @@ import casadi as ca
 
 from pyimu.attitude.filter.field import ATTITUDES, PARTS, TINY, Field
 from pyimu.attitude.filter.gravity_update import tilt_variance, vertical
+from pyimu.attitude.filter.late_heading import wrapped
 from pyimu.attitude.filter.layout import Layout
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.timing import clock_error
@@ -38,6 +39,10 @@ difference."""
 NEW_PLACE = 20.0
 """s; a field that differs from the known one, and stays as it is for so long, is that of a new
 place."""
+
+MOST = 2 * LARGEST_STD**2
+"""rad^2; most variance of either of two angles of which the sum is then seen: each has half of it
+then, no more than any angle has."""
 
 BEYOND = 3.0
 """Standard deviations, of what turns with the body and of the tilt, by which strength and dip may
@@ -76,8 +81,22 @@ class Step:
 
 def stationary(kept: Field, step: Step):
     """The covariance (2, 2) in rad^2 of the parts of which nothing is known."""
-    lasting = step["field_std"] ** 2 + MEAN * kept.scatter
-    return ca.diag(direction_variance(kept.known, ca.vertcat(kept.scatter, lasting)))
+    known = direction_variance(kept.known, ca.vertcat(kept.scatter, lasting_square(kept, step)))
+    return ca.diag(ca.fmin(known + ca.vertcat(0, kept.bent), LARGEST_STD**2))
+
+
+def lasting_time(kept: Field, step: Step):
+    """Correlation time in s of what lasts of the direction.
+
+    Where it may be bent for good it wanders about no faster than in any place, and farther.
+    """
+    usual = direction_variance(kept.known, lasting_square(kept, step))
+    return step["field_time"] * (1 + kept.bent / ca.fmax(usual, TINY))
+
+
+def lasting_square(kept: Field, step: Step):
+    """What lasts of the field across its horizontal direction in every place, T^2."""
+    return step["field_std"] ** 2 + MEAN * kept.scatter
 
 
 def direction_variance(known, square):
@@ -127,73 +146,92 @@ def chosen(flag, a: Field, b: Field) -> Field:
     )
 
 
-def followed(
-    kept: Field, now, aside, usable, x: Estimate, dt, step: Step
-) -> tuple[Field, ca.SX, ca.SX]:
-    """The memory after horizontal and upward part ``now`` (2,), whether the field is good, and the
-    variance in rad^2 that comes to the heading because the field was perhaps the wrong one.
-
-    ``aside`` is the angle in rad from where the field is expected to where it is.
-    """
+def tolerance_of(kept: Field, x: Estimate, step: Step):
+    """By how many T^2 the square of what strength and dip are off may be that of a good field."""
     size = ca.sumsqr(kept.known)
-    tilt = tilt_variance(x.covariance, vertical(x))
     wide = ca.fmax(size * step["field_tolerance"] ** 2, 2 * BEYOND**2 * kept.scatter)
-    tolerance = wide + BEYOND**2 * size * tilt
-    off = usable * (ca.sumsqr(now - kept.known) > tolerance)
-    good = usable - off
+    return wide + BEYOND**2 * size * tilt_variance(x.covariance, vertical(x))
+
+
+def followed(kept: Field, now, usable, good, x: Estimate, dt, step: Step) -> Field:
+    """The memory after horizontal and upward part ``now`` (2,) of a ``usable`` field, and what a
+    ``good`` one shows.
+    """
+    tilt = tilt_variance(x.covariance, vertical(x)) * ca.sumsqr(kept.known)
     looks = good * (step.attitudes + dt / step["field_time"])
     smooth = kept.smooth + good * dt / (SMOOTHED + dt) * (now - kept.smooth)
     difference = smooth - kept.known
     known = kept.known + looks / (kept.learnt + looks + TINY) * difference
-    noise = step["field_noise"] ** 2 / (2 * SMOOTHED) + tilt * size / 2
+    noise = step["field_noise"] ** 2 / (2 * SMOOTHED) + tilt / 2
     excess = ca.sumsqr(difference) / 2 - noise - kept.scatter
     scatter = ca.fmax(kept.scatter + looks / (WINDOW + looks) * excess, 0)
-    kept = replace(
+    return replace(
         kept,
         known=known,
         learnt=ca.fmin(kept.learnt + looks, ATTITUDES),
         smooth=smooth,
         scatter=(step["field_turning_std"] > 0) * scatter,
-        off=ca.if_else(usable, off, kept.off),
+        off=ca.if_else(usable, 1 - good, kept.off),
         known_for=kept.known_for + good * dt,
     )
-    kept, doubt = in_new_place(kept, now, aside, off, good, tolerance, vertical(x), dt, step)
-    return kept, good, doubt
 
 
 def in_new_place(
-    kept: Field, now, aside, off, good, tolerance, up, dt, step: Step
-) -> tuple[Field, ca.SX]:
-    """The memory with the ``other`` field after a sample, and with that as the known one if it has
-    lasted; then what the heading is less known by, rad^2.
+    kept: Field, now, aside, usable, good, tolerance, x: Estimate, dt, step: Step
+) -> tuple[Field, ca.SX, ca.SX]:
+    """The memory with the ``other`` field after a sample that is not ``good``, and with that as the
+    known one if it has lasted; whether it has, and what the heading is then less known by, rad^2.
 
     Which of the two is bent nobody knows: that it is the one has the odds of the time for which the
-    other has been seen. Between them is the angle that is seen ``aside``; by that the heading is
+    other has been seen. The angle from north to the new one is seen by the heading: by that this is
     off as far as it leaned on the old one, or the new one's direction is. That is also off by as
-    much as strength and dip are.
+    much as strength and dip are. Where these are within the ``tolerance`` T^2 of the old one's, so
+    that the field is but seen ``aside`` of where it was, rad, the heading may as well be wrong by
+    itself, and was right for as long as they agreed.
     """
-    change = now - kept.other
+    off, change = usable - good, now - kept.other
     begins = ca.logic_or(kept.other_for <= 0, ca.sumsqr(change) > tolerance)
     gain = ca.if_else(begins, 1, dt / (kept.other_for + dt))
     lasted = ca.if_else(begins, dt, kept.other_for + dt)
     other = kept.other + off * gain * change
     lasted = ca.if_else(off, lasted, ca.fmax(kept.other_for - good * dt, 0))
     new = lasted > NEW_PLACE
-    share = NEW_PLACE / (NEW_PLACE + kept.known_for)
+    between = ca.sumsqr(other - kept.known)
+    alike, up = between <= tolerance, vertical(x)
+    share = NEW_PLACE / ((1 + alike) * NEW_PLACE + kept.known_for)
+    square = wrapped(aside + ca.if_else(alike, 0, ca.sum1(kept.turned))) ** 2
     leaned = ca.dot(up, kept.shared[:3, 1]) / ca.fmax(kept.covariance[1, 1], TINY)
-    doubt = new * share * (aside * ca.fmin(ca.fmax(leaned, 0), 1)) ** 2
-    between = ca.sumsqr(other - kept.known) / 2
-    square = ca.vertcat(kept.scatter, step["field_std"] ** 2 + MEAN * kept.scatter + between)
-    variance = ca.fmax(direction_variance(other, square), ca.vertcat(0, (1 - share) * aside**2))
-    here = replace(
+    leaned = ca.if_else(alike, 1, ca.fmin(ca.fmax(leaned, 0), 1) ** 2)
+    # What of these is beyond MOST the next sample could not tell from an angle that may be any.
+    room = ca.fmax(MOST - ca.dot(up, x.covariance[:3, :3] @ up), 0)
+    doubt = new * ca.fmin(share * leaned * square, room)
+    bent = ca.fmin((1 - share) * square, MOST)
+    here = chosen(alike, _bent(kept, bent), _elsewhere(kept, other, bent, between, step))
+    here = replace(here, beside=ca.SX(0), known_for=ca.SX(NEW_PLACE))
+    after = replace(chosen(new, here, kept), other=other, other_for=lasted * (1 - new))
+    return after, new, doubt
+
+
+def _bent(kept: Field, more) -> Field:
+    """The memory with a direction that is off by ``more`` rad^2 for good."""
+    covariance = kept.covariance + ca.diag(ca.vertcat(0, more))
+    return replace(kept, covariance=covariance, bent=kept.bent + more)
+
+
+def _elsewhere(kept: Field, other, bent, between, step: Step) -> Field:
+    """The memory in the ``other`` field (2,), of which nothing is known but that its direction is
+    off by ``bent`` rad^2, or by what its square from the known one is, ``between`` T^2.
+    """
+    usual = direction_variance(other, ca.vertcat(kept.scatter, lasting_square(kept, step)))
+    differs = direction_variance(other, lasting_square(kept, step) + between / 2)
+    lasting = ca.fmax(differs, bent)
+    return replace(
         kept,
         known=other,
         learnt=ca.SX(1),
         smooth=other,
-        beside=ca.SX(0),
         turned=ca.SX.zeros(PARTS),
-        covariance=ca.diag(variance),
+        covariance=ca.diag(ca.vertcat(usual[0], lasting)),
         shared=ca.SX.zeros(WHOLE, PARTS),
-        known_for=ca.SX(NEW_PLACE),
+        bent=lasting - usual[1],
     )
-    return replace(chosen(new, here, kept), other=other, other_for=lasted * (1 - new)), doubt

@@ -27,8 +27,11 @@ from pyimu.attitude.filter.field_learning import (
     delayed,
     density,
     followed,
+    in_new_place,
+    lasting_time,
     parts_of,
     stationary,
+    tolerance_of,
 )
 from pyimu.attitude.filter.gravity_update import tilt_variance, vertical
 from pyimu.attitude.filter.heading_update import INNOVATION_GATE, KNOWN_TILT, angle
@@ -36,16 +39,11 @@ from pyimu.attitude.filter.late_heading import wrapped
 from pyimu.attitude.filter.layout import Flags, Layout
 from pyimu.attitude.filter.marginal import turn
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.filter.unscented import WHOLE, Estimate, N, less_scaled, turned_axes
+from pyimu.attitude.filter.unscented import LARGEST_STD, WHOLE, Estimate, N, less_scaled, turned_axes
 from pyimu.attitude.filter.variables import MAG
 from pyimu.block.plain import plain_function
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import backward, cholesky, forward, symmetric
-
-RECOVERY = 30.0
-"""s; while the field's direction is beyond the innovation gate, the variance of the yaw grows by a
-factor of e, and by that of the direction, in this time: longer than one passes by iron that bends
-the field across and changes neither strength nor dip by much."""
 
 LONGEST_HOLD = 0.1
 """s; a sample that repeats the last one is that one, held for a faster log, up to so long."""
@@ -89,7 +87,7 @@ def by_field(layout: Layout) -> ca.Function:
     x, predicted = Memory.estimate_of(working), Memory.estimate_of(before)
     told = Flags.unpack(flags)
     step = Step.of(layout, predicted, p, h, rate, told.moving)
-    kept = replace(kept, shared=kept.shared * (1 - told.lost))
+    kept = replace(kept, shared=kept.shared * (1 - told.lost * _is_bounded(predicted)))
     kept = _carried(kept, predicted, x, step)
     tilt_known = tilt_variance(x.covariance, vertical(x)) <= KNOWN_TILT**2
     after, x, turned = _measured(kept, x, u[MAG], (working[ESTIMATE + 1] < 0.5) * tilt_known, step)
@@ -97,6 +95,13 @@ def by_field(layout: Layout) -> ca.Function:
     others = working[ESTIMATE : WORKING - 1]
     out = ca.vertcat(Memory.pack_estimate(x), total, others, after.off, after.pack())
     return plain_function("by_field", [both, before, *symbols], [out], {"cse": True})
+
+
+def _is_bounded(x: Estimate):
+    """Whether standard deviations of an attitude that may be lost were bounded, 0 or 1."""
+    tilted = tilt_variance(x.covariance, vertical(x)) > KNOWN_TILT**2
+    turned = ca.mmax(ca.diag(x.covariance)[:3]) > LARGEST_STD**2
+    return ca.logic_or(tilted, turned)
 
 
 # What the direction has beside the magnetic north
@@ -108,8 +113,8 @@ def _carried(kept: Field, before: Estimate, x: Estimate, step: Step) -> Field:
     ``before`` is the estimate before these, ``x`` after. An update that makes the estimate less
     sure of itself says nothing of the parts.
     """
-    lasting = step["field_time"] / (step["field_time"] + step.h)
-    stays = ca.vertcat(1 / (1 + step.attitudes), lasting)
+    lasting = lasting_time(kept, step)
+    stays = ca.vertcat(1 / (1 + step.attitudes), lasting / (lasting + step.h))
     shared = _propagated(kept.shared, before, step) @ ca.diag(stays)
     unknown = stationary(kept, step)
     covariance = unknown + ca.diag(stays) @ (kept.covariance - unknown) @ ca.diag(stays)
@@ -189,7 +194,13 @@ def _measured(kept: Field, x: Estimate, mag, clear, step: Step) -> tuple[Field, 
     )
     kept = begun(kept, now, usable, step)
     aside = _beside_north(kept, seen, step)
-    kept, good, doubt = followed(kept, now, aside, usable, x, since, step)
+    tolerance = tolerance_of(kept, x, step)
+    off = usable * (ca.sumsqr(now - kept.known) > tolerance)
+    kept, beyond = _against_heading(kept, x, seen, aside, usable - off, since, step)
+    good = usable - off - beyond
+    kept = followed(kept, now, usable, good, x, since, step)
+    kept, new, doubt = in_new_place(kept, now, aside, usable, good, tolerance, x, since, step)
+    good += new
     x = _less_known(x, vertical(x), doubt)
     level = ca.fmax(ca.norm_2(late[:2]), TINY)
     slope = ca.vertcat(ca.dot(late[:2], passing[:2]) / level, passing[2])
@@ -201,6 +212,20 @@ def _measured(kept: Field, x: Estimate, mag, clear, step: Step) -> tuple[Field, 
 # The direction
 
 
+def _against_heading(kept: Field, x: Estimate, seen, aside, usable, dt, step: Step):
+    """The memory with the innovation without noise, and whether it contradicts the estimate where
+    the field is ``usable``, 0 or 1.
+
+    What the gyro's scale factors may make of the heading contradicts nothing.
+    """
+    beside = kept.beside + usable * dt / (SMOOTHED + dt) * (aside - kept.beside)
+    slope = _slope(kept, x, seen)
+    own = _innovation_variance(kept, x, slope)[2] + ca.sumsqr(slope.T @ x.scaled[:3, :])
+    noise = step["field_noise"] ** 2 / (2 * SMOOTHED * ca.fmax(kept.known[0], TINY) ** 2)
+    beyond = usable * (beside**2 > INNOVATION_GATE * (own + noise))
+    return replace(kept, beside=beside), beyond
+
+
 def _by_direction(kept: Field, x: Estimate, seen, lateral, good, dt, step: Step):
     """Memory and estimate after the direction of the field, where it is ``good``; the correction.
 
@@ -209,40 +234,31 @@ def _by_direction(kept: Field, x: Estimate, seen, lateral, good, dt, step: Step)
     by (t n - u) p and the two parts; a delay that is not known turns it by what passes
     ``lateral`` T/s. By what strength and dip are off just now the direction is off as well.
     """
-    innovation = _beside_north(kept, seen, step)
-    ahead = ca.vertcat(seen[:2] / ca.fmax(ca.norm_2(seen[:2]), TINY), 0)
-    up, level = vertical(x), quaternion.rotate(quaternion.conjugate(x.q), ahead)
-    slope = kept.known[1] / ca.fmax(kept.known[0], TINY) * level - up
-
+    innovation, up, slope = _beside_north(kept, seen, step), vertical(x), _slope(kept, x, seen)
     passing = 2 * SMOOTHED * lateral**2 / kept.late[1]
     now = (step["field_turning_std"] > 0) * ca.sumsqr(kept.smooth - kept.known) / 2
     white = density(replace(kept, scatter=ca.fmax(kept.scatter, now)), step) + passing
     level = ca.fmax(kept.known[0], TINY) ** 2
-    white, noise = white / level, step["field_noise"] ** 2 / (2 * SMOOTHED * level)
-    beside = kept.beside + good * dt / (SMOOTHED + dt) * (innovation - kept.beside)
-    _, _, own = _innovation_variance(kept, x, slope)
-    most = INNOVATION_GATE * (own + noise)
-    beyond = good * (beside**2 > most)
-    weight = good * ca.if_else(beyond, most / beside**2, 1)
-    yaw = ca.dot(up, x.covariance[:3, :3] @ up)
-    x = _less_known(x, up, beyond * dt / RECOVERY * (yaw + ca.trace(kept.covariance)))
-
     cross, parts, own = _innovation_variance(kept, x, slope)
-    variance = own + white / dt
-    own_gain = _about_the_vertical(up, cross, weight / variance)
+    variance = own + white / (level * dt)
+    own_gain = _about_the_vertical(up, cross, good / variance)
     x, corrected = _corrected(x, up, cross, variance, own_gain, slope, innovation)
-    gain = weight * parts / variance
+    gain = good * parts / variance
     after = symmetric(PARTS, lambda i, j: kept.covariance[i, j] - gain[i] * parts[j])
     kept = replace(
         kept,
-        beside=beside,
         turned=kept.turned + gain * innovation,
         covariance=after,
-        # Joseph's form: with less than their full weight what the two gains share stays.
-        shared=kept.shared - cross @ gain.T - (1 - weight) * own_gain @ parts.T,
-        off=1 - (1 - kept.off) * (1 - beyond),
+        shared=kept.shared - cross @ gain.T,
     )
     return kept, x, corrected
+
+
+def _slope(kept: Field, x: Estimate, seen):
+    """The slope (3,) of the direction over the attitude error, of a field ``seen`` (3,)."""
+    ahead = ca.vertcat(seen[:2] / ca.fmax(ca.norm_2(seen[:2]), TINY), 0)
+    level = quaternion.rotate(quaternion.conjugate(x.q), ahead)
+    return kept.known[1] / ca.fmax(kept.known[0], TINY) * level - vertical(x)
 
 
 def _beside_north(kept: Field, seen, step: Step):
