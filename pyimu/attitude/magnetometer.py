@@ -8,6 +8,7 @@ from itertools import permutations
 import numpy as np
 
 from pyimu.attitude.calibration import MagnetometerCalibration
+from pyimu.attitude.filter.field_learning import NEW_PLACE
 from pyimu.attitude.filter.variables import USUAL
 from pyimu.attitude.world_field import WorldField
 from pyimu.display.brief import Brief
@@ -27,6 +28,12 @@ ROOM = 2.0
 WITHIN = (16, 84)
 """Percentiles that are a standard deviation from the mean, of a normal quantity."""
 
+MOST_TURNED = 75
+"""Percentile of how much the times of a log have turned, more than which none of them counts."""
+
+TINY = 1e-12
+"""Keeps divisors from zero."""
+
 OTHER = 0.05
 """Share by which the median strength may differ from the place's, or the strength from sample to
 sample, before that is said: beyond it the field is another one by many times what the model leaves
@@ -43,14 +50,15 @@ MISTAKEN = sorted(permutations(UNITS, 2), key=lambda pair: UNITS[-1] in pair)
 class Magnetometer(Brief):
     """A recording's magnetometer: whether it is ``used``, and the ``findings`` about it.
 
-    ``strength`` is the median of its samples' length in T, NaN without any, and ``turning`` the
-    standard deviation in T of a component of what turns with the body, as their length shows it;
-    ``calibration`` the one that was undone before, or None; ``world`` the field of the place by the
+    ``strength`` is the median of its samples' length in T, NaN without any, ``scatter`` the
+    standard deviation of that length, and ``turning`` that of a component of what turns with the
+    body, as the length shows it; ``calibration`` the one that was undone before, or None; ``world`` the field of the place by the
     World Magnetic Model.
     """
 
     used: bool = False
     strength: float = float("nan")
+    scatter: float = 0.0
     turning: float = 0.0
     findings: tuple[Finding, ...] = ()
     calibration: MagnetometerCalibration | None = None
@@ -59,7 +67,7 @@ class Magnetometer(Brief):
     @property
     def is_uneven(self) -> bool:
         """Whether the strength differs by more than surroundings without iron make it."""
-        return self.turning > OTHER * self.strength
+        return self.scatter > OTHER * self.strength
 
     def settings(self) -> dict[str, float]:
         """What the log tells the filter of its magnetometer before it begins."""
@@ -95,21 +103,48 @@ def magnetometer_of(recording: Recording, wanted: bool) -> Magnetometer:
         return Magnetometer(False, strength, findings=(axis_missing,))
     if EARTH[0] / ROOM <= strength <= EARTH[1] * ROOM:
         found = _axes(recording)
-        return Magnetometer(not found, strength, _turning(there), found)
+        size = np.linalg.norm(there, axis=1)
+        white = white_noise(size[:, None]) if len(size) >= 8 else 0.0
+        times = max(int((recording.time[-1] - recording.time[0]) / NEW_PLACE), 1)
+        scatter = float(np.sqrt(_square(size, white)))
+        return Magnetometer(not found, strength, scatter, _turning(there, times, white), found)
     other = _other_size(strength, recording.stated.get("mag"))
     return Magnetometer(False, strength, findings=(other,))
 
 
-def _turning(rows: np.ndarray) -> float:
+def _square(size: np.ndarray, white: float) -> float:
+    """Mean square in T^2 of what lengths (n,) are off their mean, beside ``white`` noise in T.
+
+    Two thirds of the samples tell of it, as iron near by may bend the others.
+    """
+    low, high = np.percentile(size, WITHIN)
+    return max(float(0.5 * (high - low)) ** 2 - white**2, 0.0)
+
+
+def _turning(rows: np.ndarray, times: int, white: float) -> float:
     """Standard deviation in T of a component of what turns with the body of samples (n, 3).
 
-    A bias adds to their length its part along the field: over all attitudes a component of it, in
-    the mean square. Two thirds of the samples tell of it, as iron near by may bend the others.
+    A bias adds to their length its part along the field, and so in proportion to how much the
+    field's direction in the body has turned. Each of so many ``times`` of the log tells of that,
+    and half of what turned of another: a field that is another one from then on counts in that time
+    alone. The result is that of a component over all attitudes of the log.
     """
     size = np.linalg.norm(rows, axis=1)
-    low, high = np.percentile(size, WITHIN)
-    white = white_noise(size[:, None]) if len(size) >= 8 else 0.0
-    return float(np.sqrt(max((0.5 * (high - low)) ** 2 - white**2, 0.0)))
+    ways = rows / size[:, None]
+    parts = np.array_split(np.arange(len(rows)), min(times, len(rows)))
+    squares = np.array([_square(size[at], white) for at in parts])
+    turned = np.array([max(_turned(ways[at]), TINY) for at in parts])
+    # A field that changes looks like a turn, too.
+    weight = np.minimum(turned, np.percentile(turned, MOST_TURNED))
+    order = np.argsort(squares / turned)
+    below = np.cumsum(weight[order])
+    middle = order[np.searchsorted(below, below[-1] / 2)]
+    return float(np.sqrt(squares[middle] / turned[middle] * _turned(ways)))
+
+
+def _turned(ways: np.ndarray) -> float:
+    """The sum of the variances of unit vectors (n, 3), 1 where they are all round."""
+    return 1 - float(np.sum(np.mean(ways, axis=0) ** 2))
 
 
 def _axes(recording: Recording) -> tuple[Finding, ...]:

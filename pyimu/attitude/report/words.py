@@ -74,8 +74,8 @@ def notes(a: Outcome) -> list[str]:
 
 def _about_strength(m: Magnetometer) -> str:
     return (
-        f"the strength of the magnetic field differs by {quantity(m.turning, 'T')} from sample to "
-        f"sample, {m.turning / m.strength:.0%} of it: no calibration, or iron near by or on board; "
+        f"the strength of the magnetic field differs by {quantity(m.scatter, 'T')} from sample to "
+        f"sample, {m.scatter / m.strength:.0%} of it: no calibration, or iron near by or on board; "
         "the heading is believed accordingly less. pyimu characterize calibrates a magnetometer by "
         "a log that turns all round"
     )
