@@ -107,7 +107,9 @@ def magnetometer_of(recording: Recording, wanted: bool) -> Magnetometer:
         white = white_noise(size[:, None]) if len(size) >= 8 else 0.0
         times = max(int((recording.time[-1] - recording.time[0]) / NEW_PLACE), 1)
         scatter = float(np.sqrt(_square(size, white)))
-        return Magnetometer(not found, strength, scatter, _turning(there, times, white), found)
+        # The scatter has what the place does beside.
+        turning = min(_turning(there, times, white), scatter)
+        return Magnetometer(not found, strength, scatter, turning, found)
     other = _other_size(strength, recording.stated.get("mag"))
     return Magnetometer(False, strength, findings=(other,))
 
@@ -125,9 +127,9 @@ def _turning(rows: np.ndarray, times: int, white: float) -> float:
     """Standard deviation in T of a component of what turns with the body of samples (n, 3).
 
     A bias adds to their length its part along the field, and so in proportion to how much the
-    field's direction in the body has turned. Each of so many ``times`` of the log tells of that,
-    and half of what turned of another: a field that is another one from then on counts in that time
-    alone. The result is that of a component over all attitudes of the log.
+    field's direction in the body has turned. Of so many ``times`` of the log each tells that, and
+    their median counts: a field that is another one from one of them on spoils that one alone. The
+    result is that of a component over all attitudes of the log.
     """
     size = np.linalg.norm(rows, axis=1)
     ways = rows / size[:, None]
