@@ -54,7 +54,7 @@ from pyimu.attitude.filter.unscented import (
     Estimate,
 )
 from pyimu.attitude.filter.variables import ABSURD, INPUTS, LEAST_K, LEAST_N, MAG
-from pyimu.attitude.filter.velocity import with_sample
+from pyimu.attitude.filter.velocity import Motion, with_sample
 from pyimu.symbolic import quaternion
 from pyimu.symbolic.linear import reciprocal
 from pyimu.symbolic.missing import faded
@@ -242,7 +242,8 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     resting = alike * rests
     velocity = ca.trace(x.covariance[6:, 6:]) + ca.sumsqr(x.velocity)
     pushed = is_pushed(before.slow_force, x, settings, at.h)
-    drove, unknown = _drove(at.memory), (velocity > DRIVES**2) + pushed > 0
+    motion = at.memory.motion
+    drove, unknown = _drove(motion), (velocity > DRIVES**2) + pushed + motion.long.is_shown > 0
     unsure = drove * (at.memory.calm > CALM)
     doubt = 1 - (1 - unsure * unknown) * (1 - sways(still, _density(settings)))
     kept = 1 - resting * (1 - doubt) * share_of_noise(still, _density(settings))
@@ -262,7 +263,8 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     forgotten = ends * ca.fmax(safe[3:] - variance, 0) + taken**2 * unseen
     moving = (1 - at.stationary) * kept
     # What a push has left goes on, though the filter, which follows it, measures no velocity.
-    may_drive = drove * (ca.fmax(velocity, at.memory.motion.drift) > DRIVES**2)
+    left = (ca.fmax(velocity, motion.drift) > DRIVES**2) + motion.long.is_shown
+    may_drive = drove * (left > 0)
     calm = calmer(at.memory.calm, before, alike, may_drive, at.h)
     before_it, hidden = _hidden_turn(at, still, x)
     unseen, both = SLOW**2 * (unseen + begun) + still.span**2 * hidden, (1 - unsure, doubt)
@@ -315,10 +317,10 @@ def _wrong_bias(at: Instant, still: Stillness, x: Estimate):
     return wrong_bias(still, rate, known, density, gravity, noise, at.h)
 
 
-def _drove(memory: Memory):
+def _drove(motion: Motion):
     """Whether a body that looks still may drive on, 0 or 1: it was fast, or was pushed for long."""
-    motion = memory.motion
-    return motion.across > DRIVES**2 * (motion.drift <= PUSHED**2)
+    slowly = (motion.drift <= PUSHED**2) * (1 - motion.long.is_shown)
+    return motion.across > DRIVES**2 * slowly
 
 
 def _density(settings: Settings):
