@@ -198,18 +198,31 @@ def in_new_place(
     new = lasted > NEW_PLACE
     between = ca.sumsqr(other - kept.known)
     alike, up = between <= tolerance, vertical(x)
-    share = NEW_PLACE / ((1 + alike) * NEW_PLACE + kept.known_for)
+    share = NEW_PLACE / (NEW_PLACE + kept.known_for)
+    wrong = ca.fmax(share * _leaned(kept, up, step) ** 2, alike * share / (1 + share))
     square = wrapped(aside + ca.if_else(alike, 0, ca.sum1(kept.turned))) ** 2
-    leaned = ca.dot(up, kept.shared[:3, 1]) / ca.fmax(kept.covariance[1, 1], TINY)
-    leaned = ca.if_else(alike, 1, ca.fmin(ca.fmax(leaned, 0), 1) ** 2)
     # What of these is beyond MOST the next sample could not tell from an angle that may be any.
     room = ca.fmax(MOST - ca.dot(up, x.covariance[:3, :3] @ up), 0)
-    doubt = new * ca.fmin(share * leaned * square, room)
-    bent = ca.fmin((1 - share) * square, MOST)
+    doubt = new * ca.fmin(wrong * square, room)
+    bent = ca.fmin((1 - wrong) * square, MOST)
     here = chosen(alike, _bent(kept, bent), _elsewhere(kept, other, bent, between, step))
     here = replace(here, beside=ca.SX(0), known_for=ca.SX(NEW_PLACE))
     after = replace(chosen(new, here, kept), other=other, other_for=lasted * (1 - new))
     return after, new, doubt
+
+
+def _leaned(kept: Field, up, step: Step):
+    """Which share of an angle by which the field was bent all the time the heading has, 0 to 1.
+
+    The regression of its error on what lasts of the direction tells that of an angle as it is now.
+    Of what wanders in the time T, the mean over a time t had T/t (1 - exp(-t/T)) of it at the end
+    of that, and exp(-t/T) as much a time t later.
+    """
+    now = ca.dot(up, kept.shared[:3, 1]) / ca.fmax(kept.covariance[1, 1], TINY)
+    time = lasting_time(kept, step)
+    since = ca.fmax(kept.known_for, step.h) / time
+    left = (1 - ca.exp(-since)) / since * ca.exp(-NEW_PLACE / time)
+    return ca.fmin(ca.fmax(now / left, 0), 1)
 
 
 def _bent(kept: Field, more) -> Field:
