@@ -243,7 +243,8 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     velocity = ca.trace(x.covariance[6:, 6:]) + ca.sumsqr(x.velocity)
     pushed = is_pushed(before.slow_force, x, settings, at.h)
     motion = at.memory.motion
-    drove, unknown = _drove(motion), (velocity > DRIVES**2) + pushed + motion.long.is_shown > 0
+    left = motion.long.velocity(scalar["motion_time"])
+    drove, unknown = _drove(motion, left), (ca.fmax(velocity, left) > DRIVES**2) + pushed > 0
     unsure = drove * (at.memory.calm > CALM)
     doubt = 1 - (1 - unsure * unknown) * (1 - sways(still, _density(settings)))
     kept = 1 - resting * (1 - doubt) * share_of_noise(still, _density(settings))
@@ -263,8 +264,7 @@ def rest_of(at: Instant, sample: Sample) -> Rest:
     forgotten = ends * ca.fmax(safe[3:] - variance, 0) + taken**2 * unseen
     moving = (1 - at.stationary) * kept
     # What a push has left goes on, though the filter, which follows it, measures no velocity.
-    left = (ca.fmax(velocity, motion.drift) > DRIVES**2) + motion.long.is_shown
-    may_drive = drove * (left > 0)
+    may_drive = drove * (ca.fmax(ca.fmax(velocity, motion.drift), left) > DRIVES**2)
     calm = calmer(at.memory.calm, before, alike, may_drive, at.h)
     before_it, hidden = _hidden_turn(at, still, x)
     unseen, both = SLOW**2 * (unseen + begun) + still.span**2 * hidden, (1 - unsure, doubt)
@@ -317,9 +317,12 @@ def _wrong_bias(at: Instant, still: Stillness, x: Estimate):
     return wrong_bias(still, rate, known, density, gravity, noise, at.h)
 
 
-def _drove(motion: Motion):
-    """Whether a body that looks still may drive on, 0 or 1: it was fast, or was pushed for long."""
-    slowly = (motion.drift <= PUSHED**2) * (1 - motion.long.is_shown)
+def _drove(motion: Motion, left):
+    """Whether a body that looks still may drive on, 0 or 1: it was fast, or was pushed for long.
+
+    ``left`` (m/s)^2 is ``LongPush.velocity``.
+    """
+    slowly = (motion.drift <= PUSHED**2) * (left <= DRIVES**2)
     return motion.across > DRIVES**2 * slowly
 
 
