@@ -52,8 +52,8 @@ class Magnetometer(Brief):
 
     ``strength`` is the median of its samples' length in T, NaN without any, ``scatter`` the
     standard deviation of that length, and ``turning`` that of a component of what turns with the
-    body, as the length shows it; ``calibration`` the one that was undone before, or None; ``world`` the field of the place by the
-    World Magnetic Model.
+    body, as the length shows it; ``calibration`` the one that was undone before, or None; ``world``
+    the field of the place by the World Magnetic Model.
     """
 
     used: bool = False
@@ -103,15 +103,19 @@ def magnetometer_of(recording: Recording, wanted: bool) -> Magnetometer:
         return Magnetometer(False, strength, findings=(axis_missing,))
     if EARTH[0] / ROOM <= strength <= EARTH[1] * ROOM:
         found = _axes(recording)
-        size = np.linalg.norm(there, axis=1)
-        white = white_noise(size[:, None]) if len(size) >= 8 else 0.0
-        times = max(int((recording.time[-1] - recording.time[0]) / NEW_PLACE), 1)
-        scatter = float(np.sqrt(_square(size, white)))
-        # The scatter has what the place does beside.
-        turning = min(_turning(there, times, white), scatter)
-        return Magnetometer(not found, strength, scatter, turning, found)
+        return Magnetometer(not found, strength, *_uneven(recording, there), found)
     other = _other_size(strength, recording.stated.get("mag"))
     return Magnetometer(False, strength, findings=(other,))
+
+
+def _uneven(recording: Recording, rows: np.ndarray) -> tuple[float, float]:
+    """Scatter and turning in T, as ``Magnetometer`` has them, of samples (n, 3)."""
+    size = np.linalg.norm(rows, axis=1)
+    white = white_noise(size[:, None]) if len(size) >= 8 else 0.0
+    times = max(int((recording.time[-1] - recording.time[0]) / NEW_PLACE), 1)
+    scatter = float(np.sqrt(_square(size, white)))
+    # The scatter has what the place does beside.
+    return scatter, min(_turning(rows, times, white), scatter)
 
 
 def _square(size: np.ndarray, white: float) -> float:

@@ -12,8 +12,9 @@ from scipy.spatial.transform import Rotation
 from pyimu.attitude import run
 from pyimu.attitude.columns import NOMINAL_MOTION_BIAS, motion_bias
 from pyimu.attitude.filter.long_push import LEAST, LongPush, followed
+from pyimu.attitude.filter.prediction import _drove
 from pyimu.attitude.filter.variables import USUAL
-from pyimu.attitude.filter.velocity import FIRST_STD, UNLEVELLED, first_std
+from pyimu.attitude.filter.velocity import FIRST_STD, UNLEVELLED, Motion, first_std
 from pyimu.attitude.underway import PUSH_STD
 from pyimu.recording.recording import Recording
 
@@ -119,6 +120,14 @@ def test_a_push_that_lasts_has_its_mean_square_beyond_what_tilt_and_velocity_mak
     assert pushed(3.0, own=0.5) == pytest.approx(4.5 - 1.5 - LEAST**2, rel=1e-3)
     assert pushed(LEAST) == 0
     assert pushed(3.0, across=100.0) == 0
+
+
+@pytest.mark.parametrize("shown, drove", [(0.0, 0), (0.015**2, 0), (0.025**2, 1)])
+def test_a_body_drives_while_pushes_that_it_has_shown_leave_it_a_speed(shown, drove):
+    """The velocity follows these pushes, and shows none of it: 0.2 m/s by 0.02 m/s^2 for 10 s."""
+    motion = Motion.start(0.1, 1.0)
+    motion = replace(motion, long=replace(motion.long, shown=ca.SX(shown)))
+    assert float(_drove(motion, motion.long.velocity(1.0))) == drove
 
 
 def test_pushes_that_were_not_excluded_are_once_the_force_stays_small():

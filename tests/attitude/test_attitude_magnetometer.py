@@ -227,6 +227,45 @@ def test_a_field_that_was_bent_at_first_is_admitted_when_another_stays(block):
     assert after <= binom.ppf(1 - LEVEL, len(z), 1 / 32 + 2 * norm.sf(3)) and before > 18
 
 
+def bent_from(world: World, row: int) -> np.ndarray:
+    """The magnetometer (n, 3) near iron, of any direction, from a row on."""
+    iron = world.rng.standard_normal(3)
+    near = (np.arange(world.rows) >= row)[:, None]
+    return world.mag(FIELD + near * 25e-6 * iron / np.linalg.norm(iron))
+
+
+def test_a_field_that_is_bent_for_good_is_not_taken_for_north(block):
+    """20 s after it changed it is that of a new place, whose direction nobody knows. That it stays
+    the same tells no more of that, so that the heading is where it was. The odds were that of half
+    a minute to 20 s.
+    """
+    z, moved = [], []
+    for seed in range(12):
+        world = World(500 + seed, rows=9000)
+        y = world.run(block, bent_from(world, 3000))
+        error, std = world.heading_error(block, y), output(block, y, "heading_std")
+        z.append(error[-1] / std[-1])
+        moved.append(error[-1] - error[5500])
+    assert np.count_nonzero(np.abs(z) > 3) <= binom.ppf(1 - LEVEL, len(z), 1 / 32 + 2 * norm.sf(3))
+    assert np.median(np.abs(moved)) < np.radians(3)
+
+
+def test_a_direction_that_contradicts_the_heading_leaves_open_which_is_wrong(block):
+    """Strength and dip stay as they were, the direction turns by 60 deg: said for 20 s, and then
+    either is off by as much as it has the odds of, 30 s of agreement to 20 s.
+    """
+    world, turned = World(520, rows=9000), np.radians(60)
+    north = Rotation.from_euler("z", turned * (np.arange(9000) >= 3000)[:, None])
+    y = world.run(block, world.mag(north.apply(FIELD)))
+    said = output(block, y, "status").astype(int) & DISTURBED > 0
+    assert said[3100:4900].all() and not said[5500:].any()
+    error, std = world.heading_error(block, y), output(block, y, "heading_std")
+    assert np.abs(error[:5000] / std[:5000]).max() < 4
+    odds = 20 / (20 + 30)
+    assert std[-1] == pytest.approx(turned * np.sqrt(odds * (1 - odds)), rel=0.1)
+    assert abs(error[-1]) == pytest.approx(turned * odds, rel=0.1)
+
+
 def test_a_heading_that_headings_tell_is_not_doubted_for_the_field(block):
     """It does not lean on the field that was the wrong one."""
     world = World(330, rows=5500)
@@ -286,6 +325,16 @@ def test_a_log_shows_how_far_its_magnetometer_is_off():
         off = world.attitude[-1] * Rotation.from_quat(found.q[-1], scalar_first=True).inv()
         squares.append((off.as_rotvec()[2] / found.heading_std[-1]) ** 2)
     assert np.sum(squares) < chi2.isf(1e-4, runs)
+
+
+def test_iron_near_by_is_nothing_that_turns_with_the_body():
+    """It changes the strength for half of the log, and in one time of it."""
+    world = World(112, rows=12_000, still=300)
+    field = np.where((np.arange(12_000) < 6500)[:, None], FIELD, FIELD + [1e-5, 0, -1e-5])
+    near = run(recording(world, world.mag(field)), part()).magnetometer
+    bias = run(recording(world, world.mag() + [5e-6, 0, 0]), part()).magnetometer
+    assert near.turning < 5e-7 and near.scatter > 3e-6
+    assert bias.turning > 1e-6
 
 
 def test_the_turning_of_a_calibrated_magnetometer_is_its_least():

@@ -44,13 +44,12 @@ class Field:
     what each of its numbers is off, ``beside`` rad the heading's innovation without noise. ``late``
     (2,) is the magnetometer's delay in s and its information in 1/s^2. ``other`` (2,) T is the
     field of a disturbance, which has lasted for ``other_for`` s; the known one has been seen for
-    ``known_for`` s. ``bent`` rad^2 is the variance of the direction that the field may have here for
-    good, beside what every place has, as another one has been seen or the heading contradicted it.
-    ``turned`` (2,) rad are the
-    estimated ``PARTS`` of the angle from the magnetic north to the field's direction,
-    ``covariance`` (2, 2) their own, ``shared`` (9, 2) that with the error of the estimate. ``held``
-    (3,) T is the last sample, ``since`` s the time since it came. ``off`` says whether the last one
-    was disturbed.
+    ``known_for`` s. ``bent`` rad^2 is the variance by which its direction may be off here for good,
+    beside that of every place: another one was seen, or it contradicted the heading. ``turned``
+    (2,) rad are the estimated ``PARTS`` of the angle from the magnetic north to the field's
+    direction, ``covariance`` (2, 2) their own, ``shared`` (9, 2) that with the error of the
+    estimate. ``held`` (3,) T is the last sample, ``since`` s the time since it came. ``off`` says
+    whether the last one was disturbed.
     """
 
     known: ca.SX

@@ -39,7 +39,14 @@ from pyimu.attitude.filter.late_heading import wrapped
 from pyimu.attitude.filter.layout import Flags, Layout
 from pyimu.attitude.filter.marginal import turn
 from pyimu.attitude.filter.memory import ESTIMATE, WORKING, Memory
-from pyimu.attitude.filter.unscented import LARGEST_STD, WHOLE, Estimate, N, less_scaled, turned_axes
+from pyimu.attitude.filter.unscented import (
+    LARGEST_STD,
+    WHOLE,
+    Estimate,
+    N,
+    less_scaled,
+    turned_axes,
+)
 from pyimu.attitude.filter.variables import MAG
 from pyimu.block.plain import plain_function
 from pyimu.symbolic import quaternion
