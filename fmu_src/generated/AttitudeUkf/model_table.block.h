@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{6514a95a-bc17-8c87-9cc4-6d26ab733055}"
-#define MODEL_TOKEN_FMI3 "{55a7357d-7f35-85f5-51f0-6ed44fb25e7c}"
+#define MODEL_TOKEN_FMI2 "{0c999c6d-d90e-fa7d-d6c2-d6c58af8b1c8}"
+#define MODEL_TOKEN_FMI3 "{b6cbeb70-05a9-738e-ba13-378c1003be87}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -17,24 +17,24 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 64,
     N_OUTPUTS = 21,
-    N_STATES = 358,
-    N_CONSTANTS = 112,
+    N_STATES = 359,
+    N_CONSTANTS = 113,
     N_NOISE = 0,
     N_VARIABLES = 79
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3127 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3135 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 764487 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 748353 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 764487 };
+enum { MODEL_MOST_SAMPLES = 748353 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 764487.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 748353.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},

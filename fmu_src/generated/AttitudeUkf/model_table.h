@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{e3aaec4f-cafa-d0b6-0676-961d9fb08d93}"
-#define MODEL_TOKEN_FMI3 "{c712b561-5bd1-7d36-46ff-50f6008a6484}"
+#define MODEL_TOKEN_FMI2 "{f44644f0-5e37-e557-88b8-97d032b699fb}"
+#define MODEL_TOKEN_FMI3 "{672b0b35-3ca5-bc0f-0a1e-f133fe15cb0b}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -17,20 +17,20 @@ enum {
     N_INPUTS = 18,
     N_PARAMETERS = 64,
     N_OUTPUTS = 21,
-    N_STATES = 358,
-    N_CONSTANTS = 112,
+    N_STATES = 359,
+    N_CONSTANTS = 113,
     N_NOISE = 0,
     N_VARIABLES = 105
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3127 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3135 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 764487 };
+enum { MODEL_MOST_SAMPLES = 748353 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
