@@ -205,8 +205,7 @@ def in_new_place(
     room = ca.fmax(MOST - ca.dot(up, x.covariance[:3, :3] @ up), 0)
     doubt = new * ca.fmin(wrong * square, room)
     bent = ca.fmin((1 - wrong) * square, MOST)
-    here = chosen(alike, _bent(kept, bent), _elsewhere(kept, other, bent, between, step))
-    here = replace(here, beside=ca.SX(0), known_for=ca.SX(NEW_PLACE))
+    here = _elsewhere(kept, other, bent, between, alike, step)
     after = replace(chosen(new, here, kept), other=other, other_for=lasted * (1 - new))
     return after, new, doubt
 
@@ -216,35 +215,34 @@ def _leaned(kept: Field, up, step: Step):
 
     The regression of its error on what lasts of the direction tells that of an angle as it is now.
     Of what wanders in the time T, the mean over a time t had T/t (1 - exp(-t/T)) of it at the end
-    of that, and exp(-t/T) as much a time t later.
+    of that, some 1 / (1 + t/2T), and exp(-t/T) as much a time t later, some 1 / (1 + t/T).
     """
     now = ca.dot(up, kept.shared[:3, 1]) / ca.fmax(kept.covariance[1, 1], TINY)
-    time = lasting_time(kept, step)
-    since = ca.fmax(kept.known_for, step.h) / time
-    left = (1 - ca.exp(-since)) / since * ca.exp(-NEW_PLACE / time)
-    return ca.fmin(ca.fmax(now / left, 0), 1)
+    rate = 1 / lasting_time(kept, step)
+    leaned = now * (1 + kept.known_for * rate / 2) * (1 + NEW_PLACE * rate)
+    return ca.fmin(ca.fmax(leaned, 0), 1)
 
 
-def _bent(kept: Field, more) -> Field:
-    """The memory with a direction that is off by ``more`` rad^2 for good."""
-    covariance = kept.covariance + ca.diag(ca.vertcat(0, more))
-    return replace(kept, covariance=covariance, bent=kept.bent + more)
+def _elsewhere(kept: Field, other, bent, between, alike, step: Step) -> Field:
+    """The memory in the ``other`` field (2,), whose direction is off by ``bent`` rad^2 for good.
 
-
-def _elsewhere(kept: Field, other, bent, between, step: Step) -> Field:
-    """The memory in the ``other`` field (2,), of which nothing is known but that its direction is
-    off by ``bent`` rad^2, or by what its square from the known one is, ``between`` T^2.
+    Of a field that is not ``alike``, 0 or 1, that is at least what its square from the known one
+    makes, ``between`` T^2, and nothing else is known of it.
     """
     usual = direction_variance(other, ca.vertcat(kept.scatter, lasting_square(kept, step)))
     differs = direction_variance(other, lasting_square(kept, step) + between / 2)
     lasting = ca.fmax(differs, bent)
+    bent_still = ca.diag(ca.vertcat(0, bent)) + kept.covariance
+    anew = ca.diag(ca.vertcat(usual[0], lasting))
     return replace(
         kept,
-        known=other,
-        learnt=ca.SX(1),
-        smooth=other,
-        turned=ca.SX.zeros(PARTS),
-        covariance=ca.diag(ca.vertcat(usual[0], lasting)),
-        shared=ca.SX.zeros(WHOLE, PARTS),
-        bent=lasting - usual[1],
+        known=ca.if_else(alike, kept.known, other),
+        learnt=ca.if_else(alike, kept.learnt, 1),
+        smooth=ca.if_else(alike, kept.smooth, other),
+        turned=alike * kept.turned,
+        covariance=ca.if_else(alike, bent_still, anew),
+        shared=alike * kept.shared,
+        beside=ca.SX(0),
+        known_for=ca.SX(NEW_PLACE),
+        bent=ca.if_else(alike, kept.bent + bent, lasting - usual[1]),
     )
