@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{0c999c6d-d90e-fa7d-d6c2-d6c58af8b1c8}"
-#define MODEL_TOKEN_FMI3 "{b6cbeb70-05a9-738e-ba13-378c1003be87}"
+#define MODEL_TOKEN_FMI2 "{b151fdda-eb81-8e5a-800b-786060044f8d}"
+#define MODEL_TOKEN_FMI3 "{af2bdfcc-5a9c-e5d5-1689-655a861d67a3}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -27,14 +27,14 @@ enum {
 enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3135 };
 
 /* Rows of inputs and outputs. */
-enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 748353 };
+enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 758073 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 748353 };
+enum { MODEL_MOST_SAMPLES = 758073 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
-    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 748353.0},
+    {"block_size", KIND_UNSIGNED, ROLE_STRUCTURAL, 0, 1, 1.0, 758073.0},
     {"gyro", KIND_REAL, ROLE_INPUT, 0, 3, -INFINITY, INFINITY},
     {"accel", KIND_REAL, ROLE_INPUT, 3, 3, -INFINITY, INFINITY},
     {"temperature", KIND_REAL, ROLE_INPUT, 6, 1, -INFINITY, INFINITY},
