@@ -18,7 +18,7 @@ from pyimu.identification.fit.errors_in_variables import equations, has_noise
 from pyimu.identification.fit.fit import Fit, Last, begin, gauss_newton, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key, coefficients_of
 from pyimu.identification.fit.limited import with_limited
-from pyimu.identification.fit.maximum_likelihood import advantage, fit
+from pyimu.identification.fit.maximum_likelihood import advantage, advantage_by_one_noise, fit
 from pyimu.identification.fit.outweighed import without_outweighed
 from pyimu.identification.fit.reduction import GAIN, STRUCTURE
 from pyimu.identification.fit.reference_noise import (
@@ -315,14 +315,17 @@ class _Search:
 
     def _damp(self) -> bool:
         """Heed what damps the motion where no lag does, or more of it beside what has come in
-        since, which had bent it, too; False where nothing more does.
+        since, which had bent it, too; False where nothing more does, or where the samples are no
+        likelier by it: to its spectrum alone, a slow error may look so.
         """
         more, was = damps_by(self.after, self.seen.gate), self.damping
         if more is None:
             return False
         by = more if was is None else replace(more, falls=more.falls + was.falls)
-        self.damping = by
-        self.before, after = damped(self.before, by), damped(self.after, by)
+        after = damped(self.after, by)
+        if advantage_by_one_noise(after, self.after) <= 0.0:
+            return False
+        self.damping, self.before = by, damped(self.before, by)
         self.held = [damped_trial(t, by) for t in self.held]
         self._goes_on(after)
         self.first = self.seen if was is None else self.first
@@ -389,7 +392,7 @@ class _Search:
             replace(s, keys=s.keys | keys, gain=s.gain + gain) if s.effect == name else s
             for s in self.steps
         ]
-        self._goes_on(fitted)
+        self._goes_on(self._sharp_again(fitted))
         return True
 
     def _left_out(self) -> LeftOut | None:
@@ -423,7 +426,20 @@ class _Search:
         clipped = is_ceiling(chosen.fit.sensor, name)
         if clipped:
             self.held = [with_limited(chosen.fit.sensor, t) for t in self.held]
-        self._goes_on(without_lost(chosen.fit) if clipped else chosen.fit)
+        self._goes_on(self._sharp_again(without_lost(chosen.fit) if clipped else chosen.fit))
+
+    def _sharp_again(self, after: Fit) -> Fit:
+        """A model beside the motion as it was, where that is likelier now: what has come in since
+        explains what had looked as if the sensor damped it.
+        """
+        if self.damping is None:
+            return after
+        plain = sharp(after)
+        if advantage_by_one_noise(after, plain) > 0.0:
+            return after
+        self.damping = None
+        self.before, self.held = sharp(self.before), list(map(sharp_trial, self.held))
+        return plain
 
     def _goes_on(self, after: Fit) -> None:
         """Look for more beside a model."""
