@@ -19,6 +19,7 @@ from pyimu.attitude.reference_reading import reference_findings
 from pyimu.attitude.rest import Rest, gravity_findings
 from pyimu.errors import Finding
 from pyimu.numerics.laws import chi2
+from pyimu.recording.quality.false_force import FALSE_FORCE, false_force
 from pyimu.recording.quality.in_pieces import quality
 from pyimu.recording.recording import Recording
 
@@ -112,8 +113,10 @@ class Outcome:
     def findings(self) -> tuple[Finding, ...]:
         """What reading the recording found, and what its samples show."""
         found = (*quality(self.recording), *self.of_part, *self.of_heading)
-        if not any(f.kind in ("force_in_g", "force_unit") for f in found):
+        if false_force(found) is None:
             found += gravity_findings(self.rest)
+        # What was not refused is gravity as the settings say.
+        found = tuple(f for f in found if f.kind not in FALSE_FORCE)
         found = (
             *found,
             *turn_findings(self.rest),

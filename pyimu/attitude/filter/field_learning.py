@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
-from pyimu.attitude.filter.field import ATTITUDES, PARTS, TINY, Field
+from pyimu.attitude.filter.field import ATTITUDES, TINY, Field
 from pyimu.attitude.filter.gravity_update import tilt_variance, vertical
 from pyimu.attitude.filter.late_heading import wrapped
 from pyimu.attitude.filter.layout import Layout
 from pyimu.attitude.filter.settings import Settings
 from pyimu.attitude.filter.timing import clock_error
-from pyimu.attitude.filter.unscented import LARGEST_STD, WHOLE, Estimate
+from pyimu.attitude.filter.unscented import LARGEST_STD, Estimate
 from pyimu.symbolic import quaternion
 
 TURN = 1.0
