@@ -173,7 +173,9 @@ def judged(
     begins = rest * ca.fmax(ca.fmax(1 - memory.kept, lapsed), anew)
     square, own = _speed(x)
     grown = (fastest > 0) * (square > fastest + GATE * own)
-    faster = refused * ca.fmax(grown, moves * (square > fastest))
+    # A push that goes on makes it faster, whatever is known of the speed, and no longer slow.
+    onward = slow.now * (ca.dot(gain, memory.fastest) > 0)
+    faster = refused * ca.fmax(grown, ca.fmax(moves, onward) * (square > fastest))
     velocity = ca.if_else(shoved, gain, ca.if_else(faster, x.velocity, memory.fastest))
     after = _after(memory, x, seen, (rest, begins, pushed, returned, velocity), h)
     kind = refused * moves * none * (1 - shoved) * MOVED
@@ -182,7 +184,7 @@ def judged(
     verdict = Verdict(
         rest,
         Left(kind, gain, known.seconds, known.variance, known.age),
-        refused * (fastest > 0) * (own > fastest) * fastest,
+        refused * (fastest > 0) * (1 - onward) * (own > fastest) * fastest,
         fastest * (ca.sumsqr(after.fastest) <= 0) * (1 - lapsed),
     )
     cleared = ca.fmax(begins, rest * (fastest > 0))
