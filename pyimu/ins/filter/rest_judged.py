@@ -174,7 +174,7 @@ def judged(
     square, own = _speed(x)
     grown = (fastest > 0) * (square > fastest + GATE * own)
     # A push that goes on makes it faster, whatever is known of the speed, and no longer slow.
-    onward = slow.now * (ca.dot(gain, memory.fastest) > 0)
+    onward = ca.dot(quaternion.rotate(x.q, slow.memory.push), memory.fastest) > 0
     faster = refused * ca.fmax(grown, ca.fmax(moves, onward) * (square > fastest))
     velocity = ca.if_else(shoved, gain, ca.if_else(faster, x.velocity, memory.fastest))
     after = _after(memory, x, seen, (rest, begins, pushed, returned, velocity), h)
@@ -188,7 +188,8 @@ def judged(
         fastest * (ca.sumsqr(after.fastest) <= 0) * (1 - lapsed),
     )
     cleared = ca.fmax(begins, rest * (fastest > 0))
-    return verdict, after, slow.memory.after(cleared, known, shoved)
+    near = ca.fmax(after.kept, ca.sumsqr(after.fastest) > 0)
+    return verdict, after, slow.memory.after(cleared, known, shoved, near)
 
 
 def _after(memory: Judged, x: Motion, seen: Seen, now: tuple, h) -> Judged:

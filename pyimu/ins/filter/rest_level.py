@@ -40,7 +40,7 @@ NOISIER = 6.0
 are of a push that is not seen yet. Chosen so that a part's flicker of six times the white variance
 is learned within seconds, and pushes are not."""
 
-RECENT = 4
+RECENT = 2
 """Parts by which a push is seen to have ended."""
 
 
@@ -50,10 +50,11 @@ class Level(Kept):
     one's sums (6,) of rate and force, and the means of the ``parts`` before it, the last one first;
     the mean ``force`` (3,) of the rest and the ``age`` s over which it is that; by how much the
     square of a mean's difference exceeds the variance that white noise has, as ``shown`` for each
-    of ``LENGTHS``, and over how many s that was ``learned``.
+    of ``LENGTHS``, and over how many s that was ``learned``; the ``push`` (3,) m/s^2 that lasts, 0
+    without.
     """
 
-    SIZES: ClassVar = (1, 1, AXES, SLOTS * AXES, 3, 1, len(LENGTHS), 1)
+    SIZES: ClassVar = (1, 1, AXES, SLOTS * AXES, 3, 1, len(LENGTHS), 1, 3)
 
     count: ca.SX
     whole: ca.SX
@@ -63,10 +64,12 @@ class Level(Kept):
     age: ca.SX
     shown: ca.SX
     learned: ca.SX
+    push: ca.SX
 
-    def after(self, cleared, pushed: Gain, shoved) -> Level:
+    def after(self, cleared, pushed: Gain, shoved, near) -> Level:
         """The memory where a rest begins anew (``cleared``, 0 or 1), or where the body is
-        ``shoved`` out of one: its force is then that before it was ``pushed``.
+        ``shoved`` out of one: its force is then that before it was ``pushed``. A push is one beside
+        the rest's force while the body is ``near`` that rest, 0 or 1.
         """
         keep = 1 - cleared
         return replace(
@@ -77,6 +80,7 @@ class Level(Kept):
             parts=self.parts * keep,
             force=ca.if_else(shoved, pushed.base, self.force),
             age=keep * ca.if_else(shoved, pushed.age, self.age),
+            push=keep * near * self.push,
         )
 
 
@@ -127,6 +131,7 @@ def followed(memory: Level, rate, force, lost, resting, settings: Settings, h) -
         age=age,
         shown=memory.shown,
         learned=ca.fmin(memory.learned + full * resting * part, FOLLOWED),
+        push=memory.push,
     )
     return _compared(after, full, resting, part, settings, h)
 
@@ -135,7 +140,8 @@ def _compared(memory: Level, full, resting, part, settings: Settings, h) -> Slow
     """The means over all ``LENGTHS`` beside the force of the rest."""
     table = ca.reshape(memory.parts, AXES, SLOTS)
     recent = ca.sum2(table[3:, :RECENT]) / RECENT
-    left, now, leans, shown = ca.SX(0), ca.SX(0), ca.SX(0), []
+    left, leans, shown = ca.SX(0), ca.SX(0), []
+    push, ended, size = ca.SX.zeros(3), ca.SX(0), ca.sumsqr(memory.push)
     found = Gain(ca.SX.zeros(3), ca.SX(0), ca.SX.ones(3), memory.force, memory.age)
     for i, k in enumerate(LENGTHS):
         mean, seconds = ca.sum2(table[3:, :k]) / k, k * part
@@ -143,20 +149,29 @@ def _compared(memory: Level, full, resting, part, settings: Settings, h) -> Slow
         variance = _variance(seconds, age, part, settings)
         spread, more = ca.sum1(variance), ca.fmax(memory.shown[i], 1)
         off = ca.sumsqr(mean - base)
-        known = (memory.whole >= k) * (age >= seconds) * (age >= RECENT * part)
+        known = (memory.whole >= k) * (age >= seconds) * (age >= 4 * part)
         limit = GATE * more * spread / 3 + (SETTLES / seconds) ** 2
         beyond = known * off > limit
-        size = ca.fmin(off / spread, NOISIER * more)
+        own = ca.fmin(off / spread, NOISIER * more)
         share = part * reciprocal(ca.fmax(memory.learned, 4 * seconds))
-        shown.append(memory.shown[i] + full * resting * known * share * (size - memory.shown[i]))
+        shown.append(memory.shown[i] + full * resting * known * share * (own - memory.shown[i]))
         left = ca.fmax(left, beyond)
         since = memory.count * h
         speed = seconds * (mean - base) + h * memory.present[3:] - since * base
         own = Gain(speed, seconds + since, (seconds + since) ** 2 * more * variance, base, age)
         found = Gain(*(ca.if_else(beyond, a, b) for a, b in zip(own, found, strict=True)))
-        now = ca.fmax(now, beyond * (ca.dot(recent - base, mean - base) > off / 2))
+        lasts = beyond * (ca.dot(recent - base, mean - base) > off / 2)
+        push = ca.if_else(lasts, mean - base, push)
+        sure = ca.fmax(size / 4 > GATE * more * spread / 3, k == SLOTS)
+        gone = ca.dot(mean - base, memory.push) < size / 2
+        ended = ca.fmax(ended, sure * gone * (memory.whole >= k))
         leans = ca.fmax(leans, known * _leans(ca.sum2(table[:3, :k]) / k, base, seconds, settings))
-    return Slow(full * left, found, now, leans, replace(memory, shown=ca.vertcat(*shown)))
+    # as large as it was: while it comes to its end the means are of a part of it
+    larger = ca.fmax(ca.sumsqr(push) > size, ca.dot(push, memory.push) < 0)
+    other = ca.fmax(larger, ended * (ca.sumsqr(push) > 0))
+    push = ca.if_else(other, push, (1 - ended) * memory.push)
+    memory = replace(memory, shown=ca.vertcat(*shown), push=push)
+    return Slow(full * left, found, ca.sumsqr(push) > 0, leans, memory)
 
 
 def _before(memory: Level, table, k, resting, part) -> tuple:
