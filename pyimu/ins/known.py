@@ -15,6 +15,7 @@ from pyimu.model.tolerance import Tolerance
 from pyimu.model.typical import magnitudes
 from pyimu.recording.quality.clipping import touched_level
 from pyimu.recording.recording import Recording
+from pyimu.recording.rest import LARGEST_RATE
 
 STEPS = 20
 """A limit of so few steps of a coarse converter or less is none, nor is that of a column that goes
@@ -37,7 +38,8 @@ SHOWN = 5
 def known_part(declared: Part | None, recording: Recording, rest: Rest) -> Part:
     """The part as the filter takes it; without one, the noise of the samples at rest."""
     if declared is None:
-        part = replace(nominal_part(recording, rest), tolerances=unknown_tolerances())
+        tolerances = (*unknown_tolerances(), *_null(rest))
+        part = replace(nominal_part(recording, rest), tolerances=tolerances)
         own = Part(part.name, part.sample_rate)
     else:
         part, own = informed(declared, recording, rest), declared
@@ -68,6 +70,14 @@ def unknown_tolerances() -> tuple[Tolerance, ...]:
         free = len(CATALOGUE[effect].parameters[key[2]].indices)
         found.append(Tolerance(key, (most,) * free, "uniform"))
     return tuple(found)
+
+
+def _null(rest: Rest) -> tuple[Tolerance, ...]:
+    """How far the null of an unknown gyro may lie from zero, whose rest shows a large one."""
+    size = float(np.max(np.abs(rest.rate), initial=0.0))
+    if not rest.seen or size <= LARGEST_RATE:
+        return ()
+    return (Tolerance(("gyro", "turn_on_bias", "b0"), (size,) * 3, "normal"),)
 
 
 def _with_touched_limit(sensor: Sensor, samples: np.ndarray) -> Sensor:

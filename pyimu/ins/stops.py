@@ -10,7 +10,7 @@ import numpy as np
 
 from pyimu.attitude.columns import NOISIER
 from pyimu.attitude.filter.compensation import noise_of
-from pyimu.attitude.rest import FORCE_OFF, Rest, find_rest
+from pyimu.attitude.rest import FORCE_OFF, Rest, find_rest, finite_rows
 from pyimu.errors import Finding, UserError
 from pyimu.ins.between import Change
 from pyimu.ins.compensated import compensated
@@ -25,7 +25,7 @@ from pyimu.ins.witnesses import REFERENCE, Witness, denied
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
-from pyimu.recording.rest import rests
+from pyimu.recording.rest import LARGEST_RATE, rests
 
 ZUPT = ("auto", "live", "foot", "declared", "off")
 """Where zero-velocity updates come from: the column ``stationary``, else the samples before and
@@ -41,6 +41,10 @@ a second of a smooth drive may be as still."""
 
 SIGMAS = 3.0
 """Standard deviations of a tolerance up to which a mean is taken for an error of the part."""
+
+ALIKE = 3.0
+"""Times what the axes across gravity show: the null of the axis along it is no larger, in 19 of 20
+that lie in any direction."""
 
 
 def rest_at_start(recording: Recording, part: Part | None, gravity: float) -> Rest:
@@ -63,8 +67,9 @@ def rest_at_start(recording: Recording, part: Part | None, gravity: float) -> Re
 
 def _rest_at_start(recording: Recording, part: Part | None, gravity: float) -> Rest:
     if part is None:
-        return find_rest(recording, gravity)
-    null, size = _by_tolerance(recording, part, gravity)
+        null, size = _beside_gravity(recording), 1.0
+    else:
+        null, size = _by_tolerance(recording, part, gravity)
     rest = find_rest(
         replace(recording, gyro=recording.gyro - null, accel=recording.accel / size), gravity
     )
@@ -88,6 +93,24 @@ def later_rest(recording: Recording, part: Part | None, gravity: float) -> Rest 
         if shows_noise(rest):
             return rest
     return None
+
+
+def _beside_gravity(recording: Recording) -> np.ndarray:
+    """The null (3,) rad/s of the first samples of a gyro of which nothing is known; else 0.
+
+    A rest of it has rates that are too large for a bias. A turn across gravity would turn the
+    force, which a rest keeps. One about it would not, but where the other axes show a large null,
+    this axis has one, too, and its rate is no turn unless it is much larger.
+    """
+    stop = max(2, round(FIRST / recording.sample_period))
+    first = [finite_rows(v, stop) for v in (recording.gyro, recording.accel)]
+    if not all(map(len, first)):
+        return np.zeros(3)
+    rate, force = (v.mean(axis=0) for v in first)
+    up = force / max(float(np.linalg.norm(force)), 1e-9)
+    across = float(np.linalg.norm(rate - up * (rate @ up)))
+    null = across > LARGEST_RATE and abs(rate @ up) <= ALIKE * across
+    return rate if null else np.zeros(3)
 
 
 def _by_tolerance(recording: Recording, part: Part, gravity: float) -> tuple[np.ndarray, float]:
