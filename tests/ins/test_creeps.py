@@ -113,6 +113,21 @@ def test_the_unit_tells_a_push_that_no_window_shows(size):
     assert std[cruise].max() < 0.1
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_push_that_goes_on_makes_the_drive_no_slow_one(seed):
+    """By a rest of 5 s before it, a speed is known to no more than it first was. The drive was told
+    to be as slow as that all along, and its cruise was a rest.
+    """
+    ramp = np.clip((np.arange(3000) + 0.5) * H, 0, 1)
+    push = 0.02 * np.minimum(ramp, ramp[::-1])
+    log, speed = measured(np.concatenate([still(5), push, still(5), -push, still(8)]), 7660 + seed)
+    found = run(log, method="filter", heading0=0.0, zupt="live")
+    assert not found.still[speed > 0.1].any()
+    v, std = found.filter.vector("velocity")[:, 0], found.filter.vector("velocity_std")[:, 0]
+    cruise = slice(3500, 4000)
+    assert np.all(np.abs(v - speed)[cruise] < 4 * std[cruise])
+
+
 def test_the_unit_takes_no_flicker_for_a_push():
     """Minutes of rest, beside forces whose means over a second wander by twice what white noise of
     their samples makes them."""

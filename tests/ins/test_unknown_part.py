@@ -6,6 +6,7 @@ import numpy as np
 from navigation_cases import SHORT, assumed, declared
 from scipy.stats import chi2
 
+from pyimu import Recording
 from pyimu.ins import run
 from pyimu.ins.known import unknown_tolerances
 from pyimu.model.typical import magnitudes
@@ -44,3 +45,21 @@ def test_a_part_without_tolerances_is_taken_as_calibrated():
     log = replace(log, gyro=log.ref_rate, accel=log.ref_force)
     assert run(log, replace(assumed(), tolerances=()), method="filter").gains == 0
     assert run(log, method="filter").gains == 18
+
+
+def _standing(rate):
+    """20 s at 100 Hz by a consumer unit that shows this mean rate (3,) rad/s."""
+    rng, n = np.random.default_rng(7700), 2000
+    noise = rng.standard_normal((2, n, 3))
+    gyro, accel = rate + 8e-4 * noise[0], np.array([0.6, -0.9, 9.7]) + 0.03 * noise[1]
+    return Recording.from_arrays(time=0.01 * np.arange(n), gyro=gyro, accel=accel)
+
+
+def test_a_rest_of_a_gyro_with_a_large_null_is_told_by_gravity():
+    """Rates of 20 and 30 deg/s across gravity would turn the force; about it alone they may be a
+    turntable's. Both were called turns, and nothing of such a log rested."""
+    for zupt in ("auto", "live"):
+        found = run(_standing([0.35, -0.5, 0.4]), method="filter", zupt=zupt)
+        assert found.rest.seen and found.still.mean() > 0.9
+    found = run(_standing([0.0, 0.0, 0.5]), method="filter")
+    assert not found.rest.seen and not found.still.any()

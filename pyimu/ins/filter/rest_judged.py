@@ -173,23 +173,24 @@ def judged(
     begins = rest * ca.fmax(ca.fmax(1 - memory.kept, lapsed), anew)
     square, own = _speed(x)
     grown = (fastest > 0) * (square > fastest + GATE * own)
-    # A push that goes on makes it faster, whatever is known of the speed, and no longer slow.
+    # A push that goes on makes it faster by so much, whatever is known of the speed.
     onward = ca.dot(quaternion.rotate(x.q, slow.memory.push), memory.fastest) > 0
-    faster = refused * ca.fmax(grown, ca.fmax(moves, onward) * (square > fastest))
-    velocity = ca.if_else(shoved, gain, ca.if_else(faster, x.velocity, memory.fastest))
+    faster = refused * ca.fmax(grown, moves * (square > fastest))
+    known = memory.fastest + refused * onward * quaternion.rotate(x.q, slow.faster)
+    velocity = ca.if_else(shoved, gain, ca.if_else(faster, x.velocity, known))
     after = _after(memory, x, seen, (rest, begins, pushed, returned, velocity), h)
     kind = refused * moves * none * (1 - shoved) * MOVED
     kind = ca.if_else(shoved, SHOVED, ca.if_else(anew, ANEW, kind))
-    known = slow.gain
+    seconds, variance, age = slow.gain.seconds, slow.gain.variance, slow.gain.age
     verdict = Verdict(
         rest,
-        Left(kind, gain, known.seconds, known.variance, known.age),
+        Left(kind, gain, seconds, variance, age),
         refused * (fastest > 0) * (1 - onward) * (own > fastest) * fastest,
         fastest * (ca.sumsqr(after.fastest) <= 0) * (1 - lapsed),
     )
     cleared = ca.fmax(begins, rest * (fastest > 0))
     near = ca.fmax(after.kept, ca.sumsqr(after.fastest) > 0)
-    return verdict, after, slow.memory.after(cleared, known, shoved, near)
+    return verdict, after, slow.memory.after(cleared, slow.gain, shoved, near)
 
 
 def _after(memory: Judged, x: Motion, seen: Seen, now: tuple, h) -> Judged:

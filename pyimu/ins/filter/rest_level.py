@@ -41,7 +41,10 @@ are of a push that is not seen yet. Chosen so that a part's flicker of six times
 is learned within seconds, and pushes are not."""
 
 RECENT = 2
-"""Parts by which a push is seen to have ended."""
+"""Parts that show whether what a mean has left the rest's force by still lasts."""
+
+LEAST = 4
+"""Parts over which the rest's force must be known for anything to be seen beside it."""
 
 
 @dataclass(frozen=True)
@@ -99,14 +102,16 @@ class Gain(NamedTuple):
 @dataclass(frozen=True)
 class Slow:
     """What the means say: whether one has ``left`` the rest's force, and the ``gain`` by the
-    longest that has; whether the body is pushed ``now``, and whether it ``leans``, each 0 or 1; the
-    ``memory`` after the sample, before it is judged.
+    longest that has; whether the body is pushed ``now``, and whether it ``leans``, each 0 or 1; how
+    much ``faster`` (3,) m/s in body axes a push makes it in this sample; the ``memory`` after it,
+    before it is judged.
     """
 
     left: ca.SX
     gain: Gain
     now: ca.SX
     leans: ca.SX
+    faster: ca.SX
     memory: Level
 
 
@@ -133,11 +138,11 @@ def followed(memory: Level, rate, force, lost, resting, settings: Settings, h) -
         learned=ca.fmin(memory.learned + full * resting * part, FOLLOWED),
         push=memory.push,
     )
-    return _compared(after, full, resting, part, settings, h)
+    return _compared(after, force, full, resting, part, settings, h)
 
 
-def _compared(memory: Level, full, resting, part, settings: Settings, h) -> Slow:
-    """The means over all ``LENGTHS`` beside the force of the rest."""
+def _compared(memory: Level, force, full, resting, part, settings: Settings, h) -> Slow:
+    """The means over all ``LENGTHS`` beside the force of the rest, and the ``force`` (3,) now."""
     table = ca.reshape(memory.parts, AXES, SLOTS)
     recent = ca.sum2(table[3:, :RECENT]) / RECENT
     left, leans, shown = ca.SX(0), ca.SX(0), []
@@ -149,12 +154,12 @@ def _compared(memory: Level, full, resting, part, settings: Settings, h) -> Slow
         variance = _variance(seconds, age, part, settings)
         spread, more = ca.sum1(variance), ca.fmax(memory.shown[i], 1)
         off = ca.sumsqr(mean - base)
-        known = (memory.whole >= k) * (age >= seconds) * (age >= 4 * part)
+        known = (memory.whole >= k) * (age >= seconds) * (age >= LEAST * part)
         limit = GATE * more * spread / 3 + (SETTLES / seconds) ** 2
         beyond = known * off > limit
-        own = ca.fmin(off / spread, NOISIER * more)
+        power = ca.fmin(off / spread, NOISIER * more)
         share = part * reciprocal(ca.fmax(memory.learned, 4 * seconds))
-        shown.append(memory.shown[i] + full * resting * known * share * (own - memory.shown[i]))
+        shown.append(memory.shown[i] + full * resting * known * share * (power - memory.shown[i]))
         left = ca.fmax(left, beyond)
         since = memory.count * h
         speed = seconds * (mean - base) + h * memory.present[3:] - since * base
@@ -171,7 +176,8 @@ def _compared(memory: Level, full, resting, part, settings: Settings, h) -> Slow
     other = ca.fmax(larger, ended * (ca.sumsqr(push) > 0))
     push = ca.if_else(other, push, (1 - ended) * memory.push)
     memory = replace(memory, shown=ca.vertcat(*shown), push=push)
-    return Slow(full * left, found, ca.sumsqr(push) > 0, leans, memory)
+    now, faster = ca.sumsqr(push) > 0, h * (force - memory.force)
+    return Slow(full * left, found, now, leans, faster, memory)
 
 
 def _before(memory: Level, table, k, resting, part) -> tuple:
