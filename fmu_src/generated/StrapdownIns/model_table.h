@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "StrapdownIns"
-#define MODEL_TOKEN_FMI2 "{403a6596-2790-d3d1-d53d-56ac0ef9eb91}"
-#define MODEL_TOKEN_FMI3 "{8689b489-e51f-97ab-566b-565b28626871}"
+#define MODEL_TOKEN_FMI2 "{42d38bf0-4ef4-25b3-9c9f-a24459d42573}"
+#define MODEL_TOKEN_FMI3 "{caaf7204-ef83-355c-89fe-8e3619680438}"
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
@@ -16,20 +16,20 @@ enum {
     N_INPUTS = 21,
     N_PARAMETERS = 63,
     N_OUTPUTS = 43,
-    N_STATES = 520,
+    N_STATES = 523,
     N_CONSTANTS = 0,
     N_NOISE = 0,
     N_VARIABLES = 129
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 33, WORK_RES = 16, WORK_IW = 0, WORK_W = 5142 };
+enum { WORK_ARG = 33, WORK_RES = 16, WORK_IW = 0, WORK_W = 5148 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 382262 };
+enum { MODEL_MOST_SAMPLES = 380237 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},
