@@ -126,7 +126,7 @@ def changed(square_log, **groups):
     (
         (lambda r: {"accel": None}, ("no accel", "accel_x [m/s^2]")),
         (lambda r: {"gyro": None}, ("no gyro", "gyro_x [rad/s]")),
-        (lambda r: {"accel": r.accel / 9.80665}, ("magnitude of", "accel_x [g]")),
+        (lambda r: {"accel": r.accel / 9.80665}, ("show a gravity of", "accel_x [g]")),
         (lambda r: {"accel": r.accel * [1, -1, -1]}, ("gravity is on -z", "frd")),
         (lambda r: {"stationary": None, "accel": np.full_like(r.accel, np.nan)}, ("no accel",)),
     ),

@@ -103,7 +103,8 @@ def force_findings(recording: Recording) -> tuple[Finding, ...]:
 
 def _resting_force(recording: Recording) -> tuple[np.ndarray, np.ndarray | None]:
     """The force (k, 3) of each of the quietest seconds, and its median (3,), None without one."""
-    quiet = np.zeros((0, 3)) if recording.accel is None else _quietest(recording)
+    shows = recording.accel is not None and len(recording) > 1
+    quiet = _quietest(recording) if shows else np.zeros((0, 3))
     return quiet, np.median(quiet, axis=0) if len(quiet) else None
 
 
