@@ -93,7 +93,7 @@ NO_FORCE = {
     "no column": lambda force: None,
     "late": lambda force: np.where(np.arange(len(force))[:, None] < 3500, np.nan, force),
     "zeros": lambda force: 0 * force,
-    "of a lost unit": lambda force: force / GRAVITY,
+    "of an unknown unit": lambda force: force / 3,
 }
 
 
