@@ -7,7 +7,7 @@ leaves five of them by chance with a probability below 1e-5.
 
 import numpy as np
 import pytest
-from attitude_cases import EARTH, GRAVITY, Drive, H, drive, error, part, rover_rate
+from attitude_cases import EARTH, Drive, H, drive, error, part, rover_rate
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude import run

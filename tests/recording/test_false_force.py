@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from pyimu.model.part_file import part
+from pyimu.recording.quality.false_force import false_force
+from pyimu.recording.quality.inspect import force_findings
 from pyimu.recording.recording import Recording
 from pyimu.units import STANDARD_GRAVITY
 
@@ -45,3 +50,18 @@ def test_inspect_proposes_the_map(log, pyimu, undrawn):
     assert code == 0 and SAID not in said
     white = part("out/part.toml").accel.values["angle_random_walk"]["N"]
     assert np.mean(white) == pytest.approx(1e-3 * STANDARD_GRAVITY * np.sqrt(H), rel=0.1)
+
+
+def test_a_body_that_turns_every_way_has_the_gravity_of_each_instant():
+    """The median of forces that point all round is near zero, or 1 m/s^2, and no gravity: of 60
+    bodies that tumble, none is in g, and each is once its forces are.
+    """
+    for seed in range(60):
+        turn = Rotation.random(ROWS // 128, np.random.default_rng(seed))
+        force = np.repeat(turn.apply([0.0, 0.0, STANDARD_GRAVITY]), 128, axis=0)
+        noise = 0.01 * np.random.default_rng(seed).normal(size=force.shape)
+        time, gyro = H * np.arange(ROWS), np.zeros((ROWS, 3))
+        log = Recording.from_arrays("tumble", time=time, gyro=gyro, accel=force + noise)
+        assert false_force(force_findings(log)) is None, seed
+        in_g = replace(log, accel=log.accel / STANDARD_GRAVITY)
+        assert false_force(force_findings(in_g)).kind == "force_in_g", seed

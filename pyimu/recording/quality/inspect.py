@@ -88,7 +88,7 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
         for finding in _column(name, np.ascontiguousarray(column), name in silent)
     ]
     quiet, force = _resting_force(recording)
-    of_gravity = (*_gravity_down(recording, force), *_force_in_g(force), *_force_unit(quiet))
+    of_gravity = (*_gravity_down(recording, force), *_force_in_g(quiet), *_force_unit(quiet))
     of_gravity += tuple(_no_gravity(quiet))
     warmth = _other_temperature(recording)
     sizes = (*_too_fast(recording), *_at_rest(recording), *of_gravity, *warmth)
@@ -97,8 +97,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
 
 def force_findings(recording: Recording) -> tuple[Finding, ...]:
     """``force_in_g`` and ``force_unit`` alone, of the findings of ``inspect``."""
-    quiet, force = _resting_force(recording)
-    return (*_force_in_g(force), *_force_unit(quiet))
+    quiet, _ = _resting_force(recording)
+    return (*_force_in_g(quiet), *_force_unit(quiet))
 
 
 def _resting_force(recording: Recording) -> tuple[np.ndarray, np.ndarray | None]:
@@ -272,10 +272,13 @@ def _other_temperature(recording: Recording) -> Iterator[Finding]:
             yield Finding("temperature_unit", "temperature", 1, detail)
 
 
-def _force_in_g(rest: np.ndarray | None) -> Iterator[Finding]:
-    """A gravity of 1 m/s^2: probably a log in g whose header says m/s^2."""
-    if _is_gravity(rest, 1.0):
-        detail = {"magnitude": float(np.linalg.norm(rest)), "stated": "m/s^2", "as": "g"}
+def _force_in_g(quiet: np.ndarray) -> Iterator[Finding]:
+    """A gravity of 1 m/s^2 in half of forces (k, 3), whichever way up each is: probably a log in g
+    whose header says m/s^2.
+    """
+    sizes = np.linalg.norm(quiet, axis=1)
+    if len(sizes) and np.median(np.abs(sizes - 1.0)) < 0.1:
+        detail = {"magnitude": float(np.median(sizes)), "stated": "m/s^2", "as": "g"}
         yield Finding("force_in_g", "accel", 1, detail)
 
 
