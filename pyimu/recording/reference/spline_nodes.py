@@ -34,8 +34,7 @@ def every(time: np.ndarray, attitude: Rotation) -> tuple[int, int] | None:
     ``time`` (n,) s; None where there are none.
     """
     found = {_in_rows(time[a:b], attitude[a:b], a) for a, b in _sections(time, attitude)}
-    only = found.pop() if len(found) == 1 else None
-    return only
+    return found.pop() if len(found) == 1 else None
 
 
 def _sections(time: np.ndarray, attitude: Rotation) -> list[tuple[int, int]]:
