@@ -7,8 +7,8 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{2da5445b-24dd-d250-51dc-a18e22e20fe3}"
-#define MODEL_TOKEN_FMI3 "{d2b977e7-51af-fdb5-4130-514fda3ff259}"
+#define MODEL_TOKEN_FMI2 "{3c1bf40b-eb9a-2d10-7726-f956411dc3f9}"
+#define MODEL_TOKEN_FMI3 "{6a718dd9-747d-ebb6-bf62-ade57a88775d}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
@@ -30,7 +30,7 @@ enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3135 };
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
 
 /* In a step: what a sample takes says how many, as nothing breaks a step off. */
-enum { MODEL_MOST_SAMPLES = 758073 };
+enum { MODEL_MOST_SAMPLES = 757996 };
 
 static const BlockVariable variables[] = {
     {"time", KIND_REAL, ROLE_TIME, 0, 1, -INFINITY, INFINITY},

@@ -94,6 +94,10 @@ CALM = 0.2
 """That share beyond which a rest is not told from driving on: of a drive that begins by being taken
 for calm, 16 s must shake, or a sixth of that for each second that looked like rest before."""
 
+LEAST_CALM = 1e-9
+"""Share of a drive that is as good as none: one that fell on would come to numbers with which a
+processor is slow (half as slow again for the whole step, after an hour of a body that shakes)."""
+
 
 @dataclass(frozen=True)
 class Stillness:
@@ -176,7 +180,7 @@ def calmer(calm, before: Stillness, still, may_drive, h):
     """
     ended = before.span * (before.rests <= 0) * (before.span > FAST)
     after = (calm * CALM_TIME + ended) / (CALM_TIME + ended + h)
-    return calm + may_drive * (1 - still) * (after - calm)
+    return ca.fmax(calm + may_drive * (1 - still) * (after - calm), LEAST_CALM)
 
 
 def kept(before: Stillness, after: Stillness, safe, later, now) -> tuple:
