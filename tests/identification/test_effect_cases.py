@@ -161,3 +161,15 @@ def test_an_axis_of_one_speed_has_no_effect_of_its_own_where_another_axis_tells_
     assert [a.effect for a in found.added] == ["scale_factor_cubic"], found.report()
     value, std, _ = found.added[0].parameters["s3"]
     assert np.all(np.abs(value - made.truths[0].value)[:2] < 4.0 * std[:2])
+
+
+@pytest.mark.parametrize(
+    "name", ["one/30/gyro.thermal_misalignment", "one/30/gyro.thermal_hysteresis"]
+)
+def test_what_looks_as_if_the_gyro_damped_its_motion_brings_no_other_effect(name):
+    """By its spectrum what these leave falls with the frequency, as means over samples would: the
+    motion was bent, and a cubic or a thermal scale factor was named with it.
+    """
+    found = closed(make(name, 496, (5.0, 9.0)))
+    assert [a.effect for a in found.added] == [name.rpartition(".")[2]], found.report()
+    assert "motion_damped" not in {f.kind for f in found.quality}
