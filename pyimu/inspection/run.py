@@ -66,12 +66,14 @@ def inspect(
     if guessed:
         kind = "guessed"
     proposals = _proposals(readers, maps, foreign)
-    if foreign is None and (kind == "own" or (known is not None and known[0] == STATED)):
+    with_units = kind == "own" or (known is not None and known[0] == STATED)
+    if foreign is None and with_units:
         _with_offers(proposals[0], readers[0])
     if known is not None:
         kinds = [_entry(name, own) for name, own in known[1].files]
         data = {"frame": known[1].frame, **({"file": kinds} if kinds else {})}
-    text = text_of(_ordered(proposals), MapGiven(data, given[0].name))
+    map_given = MapGiven(data, given[0].name)
+    text = text_of(_ordered(proposals), map_given)
     found = Inspection(given[0], kind, known[0] if known else "", proposals, text)
     found = replace(found, given=asked, given_map=by)
     say("reading")
@@ -84,7 +86,7 @@ def inspect(
             else Log(Source.of(readers[0], foreign or ForeignMap(), proposals[0].holds)).read()
         )
     except UserError as error:
-        if kind == "own" or (known is not None and known[0] == STATED):
+        if with_units:
             found = _by_numbers(found, readers)
         return replace(found, problem=error.bare)
     say("looking for rests")
@@ -92,7 +94,7 @@ def inspect(
     false = false_force(findings)
     if false is not None:
         right = [_in_right_unit(p, false) for p in proposals]
-        text = text_of(_ordered(right), MapGiven(data, given[0].name))
+        text = text_of(_ordered(right), map_given)
     return replace(
         found,
         recording=recording,
