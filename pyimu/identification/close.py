@@ -16,9 +16,7 @@ import numpy as np
 from pyimu.display.silent import silent
 from pyimu.errors import Finding, UserError
 from pyimu.identification.conclude import conclude, weightless
-from pyimu.identification.fit.keys import Coefficient, Key, coefficient_of
-from pyimu.identification.fit.reduction import STRUCTURE
-from pyimu.identification.fit.structure import prior_of
+from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.trials import accel_trial, gyro_trial
 from pyimu.identification.formula.constancy import less_inconstant
@@ -26,23 +24,18 @@ from pyimu.identification.formula.effect import forget
 from pyimu.identification.formula.memory import less_than_memory, remembered
 from pyimu.identification.formula.search import Look, look
 from pyimu.identification.found.made_with import called
+from pyimu.identification.logs.findings import about, joined_with, of_trials
+from pyimu.identification.logs.given import logs_of, nothing_to_compare, references_of
 from pyimu.identification.logs.thermometer import late_thermometers
-from pyimu.identification.logs.trials import (
-    SHORTEST,
-    Together,
-    aligned_trials,
-    clocks_of,
-    has_reference,
-    prepared,
-)
+from pyimu.identification.logs.trials import Together, aligned_trials, clocks_of, prepared
 from pyimu.identification.logs.vibration import lines, vibrations
+from pyimu.identification.model.left_to_data import left_to_data, prior_of_structure, shown
 from pyimu.identification.reference.align import in_band_of
 from pyimu.identification.reference.belongs import misfit
-from pyimu.identification.reference.gravity import few, rest_trials
+from pyimu.identification.reference.gravity import rest_trials
 from pyimu.identification.reference.mirrored import mirrored
 from pyimu.identification.reference.of_itself import made_of_it
 from pyimu.identification.reference.place import is_differentiated
-from pyimu.identification.reference.positions import positions_wanted, unshown
 from pyimu.identification.reference.same_output import own_output
 from pyimu.identification.reference.told import told
 from pyimu.identification.reference.turned import with_rest_of_turn, with_turned_force
@@ -67,29 +60,20 @@ from pyimu.identification.rivals.instead import (
     less_than_rounding,
 )
 from pyimu.identification.search.ceiling import CEILING
-from pyimu.identification.search.forward import Investigation, investigate
+from pyimu.identification.search.forward import investigate
+from pyimu.identification.search.investigation import Investigation
 from pyimu.model.part import Part
 from pyimu.model.part_file import part as find_part
 from pyimu.model.part_file import part_names
 from pyimu.model.part_reader import parse_part
 from pyimu.model.sensor import Sensor
 from pyimu.numerics.threads import on_one_thread
-from pyimu.recording.folders import truth_beside
-from pyimu.recording.log import Given, is_one, recording_of
-from pyimu.recording.names import distinct_names
+from pyimu.recording.log import Given
 from pyimu.recording.quality.false_force import check_force
 from pyimu.recording.quality.gyro_axes import gyro_axes
 from pyimu.recording.quality.inspect import beyond_range, inspect, of_reading, rate_of_part
 from pyimu.recording.recording import Recording
-from pyimu.recording.reference.course import has_course
-from pyimu.recording.reference.file import with_references
 from pyimu.recording.reference.held import held_apart
-from pyimu.recording.reference.rate import reference_rate
-from pyimu.recording.rest import is_at_rest
-from pyimu.report.numbers import joined
-
-SLOWEST = 1.0
-"""s; from row to row of a log that moves: a hand or a vehicle turns to and fro in less."""
 
 Say = Callable[[str], None]
 
@@ -115,8 +99,8 @@ def close(
     to a reference rate derived from an attitude. Raises UserError for logs that cannot be read, are
     too short, do not overlap their reference, or do not excite what the part asks to be estimated.
     """
-    own = _references(reference)
-    logs, others = _named(*_with_references(_many(recordings), _many(holdout), own))
+    own = references_of(reference)
+    logs, others = logs_of(recordings, holdout, own)
     made_with = called(
         "close",
         {
@@ -131,22 +115,7 @@ def close(
     declared = None if part is None else find_part(part)
     start = declared or undeclared(logs[0].sample_rate)
     say("quality of the raw samples")
-    together = [*logs, *others]
-    quality = [
-        _of(r.name, f)
-        for r in together
-        for f in (*of_reading(r), *inspect(r), *gyro_axes(r), *vibrations(r), *lines(r))
-    ]
-    if declared is not None:
-        ranges = _ranges(start)
-        quality += [
-            _of(r.name, f)
-            for r in together
-            for f in (*rate_of_part(r, start.sample_rate), *beyond_range(r, ranges))
-        ]
-    for r in together:
-        if r.accel is not None:
-            check_force(r)
+    quality = _quality([*logs, *others], declared)
     forget()
     left_out = weightless(quality)
     logs, others = (
@@ -154,13 +123,27 @@ def close(
         for some in (logs, others)
     )
     logs, others, turning = _on_time(start.gyro, logs, others, latitude)
-    found, looks, of_trials = _investigated(
+    found, looks, more = _investigated(
         start, declared is not None, logs, others, latitude, say, turning, quality
     )
-    quality = _with(quality, of_trials)
+    quality = joined_with(quality, more)
     if not found:
-        raise UserError(_nothing_to_compare(logs))
+        raise UserError(nothing_to_compare(logs))
     return conclude(start, declared, logs, others, found, tuple(quality), say, made_with, looks)
+
+
+def _quality(logs: list[Recording], declared: Part | None) -> list[Finding]:
+    """What the raw samples show, of each log; raises UserError for forces in another unit."""
+    for r in logs:
+        if r.accel is not None:
+            check_force(r)
+    found: list[Finding] = []
+    for r in logs:
+        seen = [*of_reading(r), *inspect(r), *gyro_axes(r), *vibrations(r), *lines(r)]
+        if declared is not None:
+            seen += [*rate_of_part(r, declared.sample_rate), *beyond_range(r, _ranges(declared))]
+        found += [about(r.name, f) for f in seen]
+    return found
 
 
 def _on_time(
@@ -231,7 +214,7 @@ def _investigated(
             found[kind] = looks[kind].investigation
             trials, held = list(found[kind].before.trials), list(found[kind].held)
             quality += late_thermometers(found[kind])
-        quality += _of_trials([*trials, *held])
+        quality += of_trials([*trials, *held])
     return {k: found[k] for k in ("gyro", "accel") if k in found}, looks, quality
 
 
@@ -267,9 +250,9 @@ def _examined(
     from it, if it was.
     """
     kind = trials[0].kind
-    free = _free(start, declared, start.sensor(kind), trials)
-    trials = _shown(start, declared, free, trials)
-    prior = _prior(start.sensor(kind), free)
+    free = left_to_data(start, declared, start.sensor(kind), trials)
+    trials = shown(start, declared, free, trials)
+    prior = prior_of_structure(start.sensor(kind), free)
     unfit = own or misfit(trials)
     again = partial(investigate, start.sensor(kind), free, say=say, prior=prior, unfit=unfit)
     looked = partial(_looked, prior=prior, random=_random(start, kind), say=say)
@@ -354,174 +337,4 @@ def undeclared(sample_rate: float) -> Part:
 # The logs
 
 
-def _many(logs: Sequence[Given] | Given | None) -> list[Recording]:
-    if logs is None:
-        return []
-    return [_read(r) for r in ([logs] if is_one(logs) else logs)]
-
-
-def _references(given: Sequence[Given] | Given | None) -> list[Recording]:
-    each = [] if given is None else [given] if is_one(given) else given
-    return [recording_of(r, "reference") for r in each]
-
-
-def _with_references(
-    logs: list[Recording], others: list[Recording], references: list[Recording]
-) -> tuple[list[Recording], list[Recording]]:
-    together = with_references([*logs, *others], references)
-    return together[: len(logs)], together[len(logs) :]
-
-
-def _read(log: Given) -> Recording:
-    recording = recording_of(log)
-    if len(recording.time) < SHORTEST:
-        raise UserError(
-            f"{recording.name}: too short to say anything: {len(recording.time)} rows, at least "
-            f"{SHORTEST} are needed"
-        )
-    turning = recording.ref_rate is not None or recording.ref_q is not None
-    if turning and recording.sample_period > SLOWEST and not is_at_rest(recording):
-        raise UserError(
-            f"{recording.name}: a row every {recording.sample_period:.3g} s, and the sensor moves: "
-            f"at most {SLOWEST:g} s would follow it; if its times are in ms, the header must say "
-            "time [ms]"
-        )
-    return recording
-
-
-def _named(
-    logs: list[Recording], others: list[Recording]
-) -> tuple[list[Recording], list[Recording]]:
-    """The logs to fit and to judge by under names that tell them apart."""
-    if not logs:
-        raise UserError("no log given: name at least one recording")
-    together = [*logs, *others]
-    named = [replace(r, name=n) for r, n in zip(together, distinct_names(together), strict=True)]
-    return named[: len(logs)], named[len(logs) :]
-
-
-def _of(name: str, finding: Finding) -> Finding:
-    """A finding that says which log it is about."""
-    return replace(finding, detail={"recording": name, **finding.detail})
-
-
-def _of_trials(trials: Sequence[Trial]) -> list[Finding]:
-    """What making the trials found, each kind once a column of a log."""
-    found = {(t.name, f.kind, f.column): _of(t.name, f) for t in trials for f in t.findings}
-    return list(found.values())
-
-
-def _with(quality: list[Finding], more: list[Finding]) -> list[Finding]:
-    """Findings and ``more``, which say better what is said of the same column already."""
-
-    def about(f: Finding) -> tuple[str, str, str]:
-        return f.detail["recording"], f.kind, f.column
-
-    better = {about(f) for f in more}
-    # Two sensors of one log may say the same of its reference.
-    once = [f for i, f in enumerate(more) if f not in more[:i]]
-    return [f for f in quality if about(f) not in better] + once
-
-
-def _nothing_to_compare(logs: list[Recording]) -> str:
-    if all(has_course(r) and reference_rate(r).kind == "none" for r in logs):
-        return (
-            f"{logs[0].name}: nothing to compare: its positions never move so fast that they have "
-            "a course, or it shows no turn (one on the spot has no course); give a log that drives "
-            "curves, or leave the positions out where it stands still"
-        )
-    if any(has_reference(r) for r in logs):
-        return (
-            f"{logs[0].name}: too short to say anything: fewer than {SHORTEST} rows that sensor "
-            "and reference both cover"
-        )
-    return (
-        f"{logs[0].name}: nothing to compare: the log has no reference (ref_rate, ref_q, "
-        "ref_heading, ref_force, positions or velocities) and moves; a log without reference must "
-        f"stand still, or rest in several positions (here {few(logs)}){_beside(logs[0])}"
-    )
-
-
-def _beside(log: Recording) -> str:
-    """Where its reference may be."""
-    truth = truth_beside(log.path)
-    if truth is None:
-        return "; a reference in a file of its own is given by --reference FILE"
-    return f"; the ground truth is beside it: --reference {truth}"
-
-
 # Trials, and what is free in them
-
-
-def _free(start: Part, declared: bool, sensor: Sensor, trials: list[Trial]) -> frozenset[Key]:
-    """The coefficients to estimate.
-
-    Those that the part leaves to the data, less what a log's own bias and mounting stand for.
-    """
-    left = [
-        s
-        for s in sensor.slots
-        if (sensor.kind, s.effect, s.parameter) in start.estimate and not s.definition.reference
-    ]
-    effects = {s.effect: sensor.effect(s.effect) for s in left}
-    left = [s for s in left if not (effects[s.effect].stochastic or effects[s.effect].per_power_on)]
-    if declared and all(t.reference == "static" for t in trials):
-        _refuse_without_motion(start, sensor, [s for s in left], trials[0].name)
-    if all(t.any_turn for t in trials):
-        # A turn of the whole triad is the mounting's; what such an effect has of its own is three
-        # angles, not six.
-        left = [s for s in left if not effects[s.effect].mounting or s.index[0] < s.index[1]]
-    return frozenset(map(coefficient_of, left))
-
-
-def _shown(start: Part, declared: bool, free: frozenset[Key], trials: list[Trial]) -> list[Trial]:
-    """The trials with a finding of the free coefficients that rests do not show.
-
-    They stay free, near zero by their prior: held at zero they would bend those that are shown.
-    Raises UserError for one that the part asks for, and that has no prior therefore.
-    """
-    if all(t.reduction is None for t in trials):
-        return trials
-    sensor, name = start.sensor(trials[0].kind), trials[0].name
-    hidden = unshown(sensor, free, trials)
-    if not hidden:
-        return trials
-    names = joined([f"{k.effect}.{k.parameter}{list(k.index)}" for k in hidden])
-    more = positions_wanted(sensor, free, trials)
-    turns = "turns by 90 deg and more about each of its axes, from rest to rest"
-    wanted = turns if sensor.kind == "gyro" else "rests in many more positions"
-    said = f"{wanted}, would"
-    if more:
-        wanted = f"rests with {joined(more)}"
-        said = f"{len(more)} more at rest would: {joined(more)}"
-    if declared:
-        have = sum(len(np.unique(t.reduction.group)) for t in trials)
-        raise UserError(
-            f"{name}: {have} positions at rest do not show {names} of the {sensor.kind}, which "
-            f"part {start.name} asks to estimate; {said}"
-        )
-    effects = joined([e.replace("_", " ") for e in dict.fromkeys(k.effect for k in hidden)])
-    detail = {"coefficients": names, "effects": effects, "positions": said, "wanted": wanted}
-    found = Finding("not_shown_at_rest", sensor.kind, len(hidden), detail)
-    first = replace(trials[0], findings=(*trials[0].findings, found))
-    return [first, *trials[1:]]
-
-
-def _prior(sensor: Sensor, free: frozenset[Key]) -> dict[Coefficient, float]:
-    """What is known of the structure of a sensor where nobody declared it: its typical size in the
-    coarsest class of parts.
-    """
-    return prior_of(
-        sensor, (k for k in free if isinstance(k, Coefficient) and k.effect in STRUCTURE)
-    )
-
-
-def _refuse_without_motion(start: Part, sensor: Sensor, left: list, log: str) -> None:
-    """Raise UserError for the first coefficient that only motion would show."""
-    for s in left:
-        if sensor.effect(s.effect).stage in ("dynamics", "gain"):
-            raise UserError(
-                f"{log}: no motion, yet part {start.name} asks to estimate "
-                f"{sensor.kind}.{s.effect}.{s.parameter}; give a log that moves, with a "
-                "reference, or declare the value"
-            )

@@ -40,7 +40,7 @@ from pyimu.identification.report.clocks import or_gain, taken_out, undone
 from pyimu.identification.report.references import references
 from pyimu.identification.result import Closed
 from pyimu.identification.rivals.confounds import what_no_log_tells_apart
-from pyimu.identification.search.forward import Investigation, Refused
+from pyimu.identification.search.investigation import Investigation, Refused
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.rounded import OF_DIGITS
 from pyimu.identification.third_sensor import and_magnetometer, of_magnetometer

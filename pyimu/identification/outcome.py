@@ -17,7 +17,7 @@ from pyimu.identification.magnetometer.words import as_dict as magnetic
 from pyimu.identification.model.estimated import Estimated
 from pyimu.identification.model.simulated import Simulated
 from pyimu.identification.plan.advice import Advice
-from pyimu.identification.search.forward import Refused
+from pyimu.identification.search.investigation import Refused
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.verdict.fates import Fate
 from pyimu.model.kinds import MAGNETOMETER

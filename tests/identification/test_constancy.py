@@ -18,7 +18,7 @@ from pyimu.identification.formula import constancy
 from pyimu.identification.formula.constancy import WAYS, less_inconstant
 from pyimu.identification.formula.terms import simple
 from pyimu.identification.formula.wandering import _followed, wandering
-from pyimu.identification.search.forward import Step
+from pyimu.identification.search.investigation import Step
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS

@@ -5,7 +5,7 @@ import pytest
 
 from pyimu.identification.formula.judge import DISPLACES, least_gain, outweighs
 from pyimu.identification.search.confirm import Evidence
-from pyimu.identification.search.forward import Step
+from pyimu.identification.search.investigation import Step
 
 
 def test_an_axis_without_a_difference_is_asked_for_no_gain():

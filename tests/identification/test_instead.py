@@ -12,7 +12,8 @@ from pyimu.identification.noise.jumps import POPCORN
 from pyimu.identification.noise.laws import kinds, names_of
 from pyimu.identification.report.page import page
 from pyimu.identification.search.by_chance import Chance
-from pyimu.identification.search.forward import AS_NOISE, without
+from pyimu.identification.search.investigation import AS_NOISE
+from pyimu.identification.search.taken_back import without
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 

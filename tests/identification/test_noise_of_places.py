@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation, RotationSpline
 from test_filtered_places import GRAVITY, PLACES, Wand
 from test_force_of_places import waves
 
-from pyimu.identification.close import _free, _prior, undeclared
+from pyimu.identification.close import undeclared
 from pyimu.identification.fit.columns import in_band
 from pyimu.identification.fit.fit import Fit, begin
 from pyimu.identification.fit.keys import Coefficient
@@ -15,6 +15,7 @@ from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.reference_noise import with_reference_noise
 from pyimu.identification.fit.trials import accel_trial
 from pyimu.identification.logs.trials import prepared
+from pyimu.identification.model.left_to_data import left_to_data, prior_of_structure
 from pyimu.identification.search.forward import _first
 from pyimu.model.kinds import OWN
 from pyimu.recording.recording import Recording
@@ -31,8 +32,8 @@ def trial_of(wand: Wand, **changes):
 def fitted(trial) -> Fit:
     """The model of a part that nobody declared beside the noise of its reference."""
     start = undeclared(1.0 / trial.h)
-    free = _free(start, False, start.accel, [trial])
-    first = _first(begin(start.accel, free, [trial], _prior(start.accel, free)), False)
+    free = left_to_data(start, False, start.accel, [trial])
+    first = _first(begin(start.accel, free, [trial], prior_of_structure(start.accel, free)), False)
     return fit(with_reference_noise(first, [], False)[0])
 
 

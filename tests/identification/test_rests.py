@@ -22,8 +22,9 @@ from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.turns import at_middle
 from pyimu.identification.reference.gravity import rest_trial, rest_trials
 from pyimu.identification.reference.turns import turn_trials
-from pyimu.identification.search.forward import Investigation, Step, _scattering_at_last
+from pyimu.identification.search.investigation import Investigation, Step
 from pyimu.identification.search.screen import Screening
+from pyimu.identification.search.taken_back import scattering_at_last
 from pyimu.model.part import Part
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
@@ -193,12 +194,12 @@ def test_what_a_misalignment_scattered_no_longer_does_once_it_is_known():
         Step("scale_factor", first, 216.0, 4.1, (), 365.0),
         Step("misalignment", second, 2770.0, 5.1, (), 7.0),
     ]
-    before, last = _scattering_at_last(found, steps, Screening((), 4.0))
+    before, last = scattering_at_last(found, steps, Screening((), 4.0))
     # Three coefficients by fourteen rests: hardly a half more.
     assert 1.0 <= before.dispersion < 1.5
     assert last is steps[1]
     sure = [replace(steps[0], dispersion=1.0), steps[1]]
-    assert _scattering_at_last(found, sure, Screening((), 4.0)) == sure
+    assert scattering_at_last(found, sure, Screening((), 4.0)) == sure
 
 
 def test_a_perfect_part_that_is_one_is_left_alone():

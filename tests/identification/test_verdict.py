@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from pyimu.identification.fit.score import ErrorSums
 from pyimu.identification.found.entries import Added, Changed, Errors
-from pyimu.identification.search.forward import Refused
+from pyimu.identification.search.investigation import Refused
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.verdict.ranges import beyond
 from pyimu.identification.verdict.verdict import (

@@ -19,8 +19,9 @@ from pyimu.identification.fit.score import tally
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.model.model_of import Found, Model, model_of
 from pyimu.identification.search.confirm import evidence
-from pyimu.identification.search.forward import Investigation, less_of_baseline, without
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.screen import fitted_dispersion
+from pyimu.identification.search.taken_back import less_of_baseline, without
 from pyimu.identification.verdict.fates import TAKEN_BACK
 from pyimu.identification.verdict.verdict import WORSE
 from pyimu.model.catalogue import WALK

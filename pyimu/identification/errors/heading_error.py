@@ -14,7 +14,8 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.score import WINDOW, held_state
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.clock import shifted
-from pyimu.identification.search.forward import Investigation, without
+from pyimu.identification.search.investigation import Investigation
+from pyimu.identification.search.taken_back import without
 from pyimu.identification.verdict.fates import TURNED_BACK
 from pyimu.recording.reference.rate import VERTICAL
 

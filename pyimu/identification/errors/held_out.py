@@ -32,7 +32,7 @@ from pyimu.identification.found.entries import AtRest, Errors, LogEntry
 from pyimu.identification.noise.named import Noise
 from pyimu.identification.reference.level import Leaning, leaning
 from pyimu.identification.search.belief import FARTHEST, most
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.model.catalogue import WALK
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording

@@ -25,9 +25,10 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.formula.memory import low_passed
 from pyimu.identification.formula.screen import UNEXPLAINED, Scored, scored
 from pyimu.identification.formula.terms import Term
-from pyimu.identification.search.forward import Investigation, Step, without
 from pyimu.identification.search.inexact import left_by_forms
+from pyimu.identification.search.investigation import Investigation, Step
 from pyimu.identification.search.leftover import Unexplained
+from pyimu.identification.search.taken_back import without
 from pyimu.model.arguments import AXES
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.sensor import Sensor

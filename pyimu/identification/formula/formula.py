@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from pyimu.identification.formula.effect import plain
 from pyimu.identification.formula.terms import Term
-from pyimu.identification.search.forward import Step
+from pyimu.identification.search.investigation import Step
 from pyimu.model.effect import Effect
 
 TWIN = 0.995

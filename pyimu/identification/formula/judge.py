@@ -11,7 +11,7 @@ from pyimu.identification.formula.compose import Chosen
 from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.confirm import CHANCE as REFUTED
 from pyimu.identification.search.confirm import SPEAKS, Evidence
-from pyimu.identification.search.forward import Investigation, Step
+from pyimu.identification.search.investigation import Investigation, Step
 from pyimu.identification.search.own_signal import is_of_reference
 
 CONFIRMED, CHANCE = 0.3, 2.0

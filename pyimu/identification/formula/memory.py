@@ -21,9 +21,10 @@ from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.formula.screen import UNEXPLAINED, scored
 from pyimu.identification.formula.terms import SAID, Term, usable
 from pyimu.identification.search.choice import SET_WIDTH
-from pyimu.identification.search.forward import Investigation, without
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.screen import PENALTY, is_slow
+from pyimu.identification.search.taken_back import without
 from pyimu.model.arguments import AXES
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.signals import COLUMNS

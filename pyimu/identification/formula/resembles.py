@@ -14,7 +14,7 @@ from pyimu.identification.formula.effect import coefficients
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.search.candidates import absent, scan_columns
 from pyimu.identification.search.candidates import groups as groups_of
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.projected import Projected
 
 MOST, LEAST = 3, 0.3

@@ -49,8 +49,8 @@ from pyimu.identification.formula.terms import (
 )
 from pyimu.identification.search.choice import SET_WIDTH
 from pyimu.identification.search.confirm import evidence
-from pyimu.identification.search.forward import Investigation, Refused, Step
 from pyimu.identification.search.inexact import left_by_forms
+from pyimu.identification.search.investigation import Investigation, Refused, Step
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.own_lag import has_lag
 from pyimu.identification.search.own_signal import is_of_reference

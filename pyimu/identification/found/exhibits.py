@@ -24,7 +24,7 @@ from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.formula.columns import values_of
 from pyimu.identification.formula.formula import Formula
 from pyimu.identification.found.entries import Added
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.screen import Screening
 from pyimu.model.effect import Effect
 from pyimu.model.kinds import KINDS

@@ -7,7 +7,7 @@ import numpy as np
 from pyimu.errors import Finding
 from pyimu.identification.fit.clock import WIDE
 from pyimu.identification.fit.keys import LogLag
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 
 
 def late_thermometers(inv: Investigation) -> list[Finding]:

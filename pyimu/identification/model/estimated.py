@@ -18,7 +18,7 @@ from pyimu.identification.model.unshown import OUTWEIGHED
 from pyimu.identification.noise.named import Noise
 from pyimu.identification.rivals.confounds import what_no_log_tells_apart
 from pyimu.identification.search.belief import most
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.leftover import noise_figures
 from pyimu.identification.search.screen import fitted_dispersion
 from pyimu.model.catalogue import POWER_ON, WALK, WHITE

@@ -13,7 +13,7 @@ from pyimu.identification.logs.vibration import less_lines
 from pyimu.identification.model.as_part import unexamined_left_out
 from pyimu.identification.noise.named import Noise
 from pyimu.identification.noise.rounding import Rounding, rounding
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.leftover import NoiseFigure, noise_figures
 from pyimu.model.catalogue import POWER_ON, WALK, WHITE
 from pyimu.model.part import Part

@@ -19,7 +19,7 @@ from pyimu.identification.fit.fit import Fit, departure, stepped, with_prior
 from pyimu.identification.fit.keys import Coefficient, Key
 from pyimu.identification.fit.maximum_likelihood import fit
 from pyimu.identification.fit.normal import variances
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 
 OUTWEIGHED = np.sqrt(0.5)
 """Standard error, in units of the prior's, from which on the prior says more of a coefficient than

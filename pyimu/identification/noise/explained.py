@@ -25,7 +25,7 @@ from pyimu.identification.noise.exact import AxisNoise
 from pyimu.identification.noise.known import state_of
 from pyimu.identification.noise.laws import Kind, kinds
 from pyimu.identification.noise.rows import Rows, rows_of
-from pyimu.identification.search.forward import Refused
+from pyimu.identification.search.investigation import Refused
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.sensor import Sensor

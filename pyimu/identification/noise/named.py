@@ -17,7 +17,7 @@ from pyimu.identification.noise.laws import Kind, names_of
 from pyimu.identification.noise.misfit import Misfit, misfits_of
 from pyimu.identification.noise.shapes import shapes_of
 from pyimu.identification.search.belief import most
-from pyimu.identification.search.forward import Investigation, Refused
+from pyimu.identification.search.investigation import Investigation, Refused
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.model.arguments import AXES
 from pyimu.model.catalogue import CATALOGUE, WALK, WHITE

@@ -16,7 +16,7 @@ from pyimu.identification.noise.rows import rows_of
 from pyimu.identification.noise.spectrum import Bands, bands
 from pyimu.identification.search.ceiling import has_samples
 from pyimu.identification.search.choice import SET_WIDTH
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import CATALOGUE, INCREMENTS, read_off
 from pyimu.model.effect import Effect

@@ -31,7 +31,7 @@ from pyimu.identification.plan.motions import Limits, Motion, library
 from pyimu.identification.plan.noise import noise_at
 from pyimu.identification.plan.scene import step_of, trial
 from pyimu.identification.search.candidates import has_columns, scanned
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.screen import VISIBLE
 from pyimu.model.catalogue import CATALOGUE, POWER_ON
 from pyimu.model.kinds import KINDS

@@ -18,7 +18,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.fit.trials import environment
 from pyimu.identification.fit.turns import Turns, at_middle
 from pyimu.identification.reference.gravity import rest_rows, sample_std
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 from pyimu.model.signals import COLUMNS, N_INPUT

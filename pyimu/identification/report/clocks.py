@@ -11,7 +11,7 @@ from pyimu.identification.errors.held_out import clock_of
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.scales import POSITIONS_SCALE
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.recording.reference.play import OF_JOINT, PLAY
 from pyimu.recording.reference.unfiltered_places import LATE, SIDEWAYS
 from pyimu.recording.reference.unlagged import ADAPTS, HIGHEST, LAG

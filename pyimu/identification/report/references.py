@@ -15,7 +15,7 @@ from pyimu.identification.fit.keys import LogPlace
 from pyimu.identification.fit.noise_floor import reference_variance
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.scales import Scale
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.recording.recording import Recording
 
 NATURE = {

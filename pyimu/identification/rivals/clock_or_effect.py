@@ -22,7 +22,7 @@ from pyimu.identification.formula.effect import put
 from pyimu.identification.formula.search import Look
 from pyimu.identification.reference.align import ALIKE
 from pyimu.identification.reference.track import WANDERS
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.screen import PENALTY
 from pyimu.model.catalogue import CATALOGUE
 

@@ -27,7 +27,7 @@ from pyimu.identification.fit.reduction import GAIN
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.reference.place import with_force
 from pyimu.identification.reference.scales import with_gains
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.screen import fitted_dispersion
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor

@@ -15,14 +15,9 @@ from pyimu.identification.fit.whiten import RandomWalk
 from pyimu.identification.formula.search import Look
 from pyimu.identification.noise.rounding import rounding
 from pyimu.identification.noise.shapes import likelihood_of
-from pyimu.identification.search.forward import (
-    AS_NOISE,
-    AS_ROUNDING,
-    Investigation,
-    Step,
-    without,
-)
+from pyimu.identification.search.investigation import AS_NOISE, AS_ROUNDING, Investigation, Step
 from pyimu.identification.search.screen import PENALTY
+from pyimu.identification.search.taken_back import without
 from pyimu.model.catalogue import CATALOGUE, INCREMENTS
 
 DEAD_ZONES = ("dead_zone", "hard_dead_zone")

@@ -5,17 +5,16 @@ Screen, fit the best few in full, ask the held-out data, add, and look again.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
 from pyimu.display.silent import silent
 from pyimu.identification.fit.damping import Damped
-from pyimu.identification.fit.errors_in_variables import equations, has_noise
-from pyimu.identification.fit.fit import Fit, Last, begin, gauss_newton, with_prior
+from pyimu.identification.fit.errors_in_variables import has_noise
+from pyimu.identification.fit.fit import Fit, Last, begin, gauss_newton
 from pyimu.identification.fit.keys import Coefficient, Key, coefficients_of
 from pyimu.identification.fit.limited import with_limited
 from pyimu.identification.fit.maximum_likelihood import advantage, advantage_by_one_noise, fit
@@ -29,16 +28,9 @@ from pyimu.identification.fit.reference_noise import (
 )
 from pyimu.identification.fit.scatter import wander_of, with_wander
 from pyimu.identification.fit.trial import Doubt, Trial
-from pyimu.identification.fit.walk import with_unknown_walk
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
 from pyimu.identification.search.belief import unbelievable
-from pyimu.identification.search.candidates import has_form, scanned
-from pyimu.identification.search.ceiling import (
-    has_ceiling,
-    is_ceiling,
-    unbent,
-    without_lost,
-)
+from pyimu.identification.search.ceiling import has_ceiling, is_ceiling, unbent, without_lost
 from pyimu.identification.search.choice import Refined, Tried, chosen_of
 from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.damped import (
@@ -50,24 +42,19 @@ from pyimu.identification.search.damped import (
     sharp_trial,
 )
 from pyimu.identification.search.inexact import within_form
+from pyimu.identification.search.investigation import Investigation, Refused, Step
 from pyimu.identification.search.judge import OF_REFERENCE, judged
-from pyimu.identification.search.left_out import LeftOut, with_left_out
+from pyimu.identification.search.left_out import LeftOut
 from pyimu.identification.search.own_kinks import with_own_kinks
-from pyimu.identification.search.own_lag import (
-    apart,
-    beside_clocks,
-    lag_beside_clocks,
-    leaves_less,
-)
-from pyimu.identification.search.projected import Scatter
+from pyimu.identification.search.own_lag import apart, beside_clocks, lag_beside_clocks, leaves_less
 from pyimu.identification.search.reference_line import without_line
-from pyimu.identification.search.screen import (
-    PENALTY,
-    Screened,
-    Screening,
-    fitted_dispersion,
-    keys_of,
-    screen,
+from pyimu.identification.search.screen import PENALTY, Screened, Screening, keys_of
+from pyimu.identification.search.taken_back import (
+    backward,
+    by_fewer,
+    may_grow,
+    scattering_at_last,
+    with_intervals,
 )
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effects import EFFECTS
@@ -81,81 +68,6 @@ MOST_EFFECTS = 8
 
 STEPS = 6
 """Of least squares towards the places where forces act."""
-
-AS_NOISE = "explains no more than random noise would"
-"""The reason for which an effect is taken back that is not told from noise."""
-
-AS_ROUNDING = "is no more than the rounding of samples that hardly scatter may do"
-"""The reason for which an effect is taken back that rounding makes."""
-
-
-@dataclass(frozen=True)
-class Step:
-    """One effect that was added.
-
-    The coefficients it brought, its evidence, and who could stand in for it.
-
-    ``declared`` says that the effect was in the model already and only its declared values were set
-    free, ``as_sampled`` that the samples themselves show it, whatever squares it explains.
-    ``fitted`` are the candidates that were fitted in full beside it, and their gains [nat].
-    """
-
-    effect: str
-    keys: frozenset
-    gain: float
-    gate: float
-    alternatives: tuple[str, ...]
-    dispersion: float
-    declared: bool = False
-    as_sampled: bool = False
-    fitted: tuple[tuple[str, float], ...] = ()
-
-
-@dataclass(frozen=True)
-class Refused:
-    """An effect that passed the gate but not belief or the held-out data; ``beyond_belief`` where
-    it would be of a size that no sensor has.
-    """
-
-    effect: str
-    gain: float
-    reason: str
-    beyond_belief: bool = False
-
-    def as_dict(self) -> dict[str, Any]:
-        return asdict(self)
-
-
-@dataclass(frozen=True)
-class Investigation:
-    """What the loop found for one sensor: the model before and after, and the way between.
-
-    ``unfit`` says why a reference does not belong to the sensor: nothing was looked for then;
-    ``believed`` that what may be noise of the reference was taken for it.
-    """
-
-    before: Fit
-    after: Fit
-    steps: tuple[Step, ...]
-    refused: tuple[Refused, ...]
-    first: Screening
-    last: Screening
-    held: tuple[Trial, ...]
-    unfit: str = ""
-    believed: bool = False
-
-    @property
-    def removable(self) -> list[str]:
-        """The effects that were added and may be taken back: a ceiling may not, the samples at it
-        having been left out since.
-        """
-        sensor, new = self.after.sensor, [s.effect for s in self.steps if not s.declared]
-        return [name for name in new if not is_ceiling(sensor, name)]
-
-    @property
-    def brought_in(self) -> int:
-        """Coefficients that its steps brought in."""
-        return sum(len(s.keys) for s in self.steps)
 
 
 def investigate(
@@ -198,9 +110,9 @@ def investigate(
         return investigate(sensor, free, trials, held, say, prior, "", believed, lines - 1, lags)
     if not believed and _is_of_reference(search):
         return investigate(sensor, free, trials, held, say, prior, "", True, lines, lags)
-    after, steps = _backward(search.after, search.steps)
-    after, steps, last = _by_fewer(after, steps, search)
-    after, steps = _with_intervals(after, steps), _scattering_at_last(after, steps, last)
+    after, steps = backward(search.after, search.steps)
+    after, steps, last = by_fewer(after, steps, search.last, sensor.values)
+    after, steps = with_intervals(after, steps), scattering_at_last(after, steps, last)
     refused = tuple(search.refused.values())
     looks = search.first, last
     left = unbent(search.before, after), after, tuple(steps), refused, *looks, tuple(search.held)
@@ -400,7 +312,7 @@ class _Search:
         added = [s.effect for s in self.steps if not s.declared]
         free = {k.effect for k in self.before.free if isinstance(k, Coefficient)}
         own = sorted(e for e in free if CATALOGUE[e] not in EFFECTS)
-        few = [e for e in (*added, *own) if _may_grow(e, self.after)]
+        few = [e for e in (*added, *own) if may_grow(e, self.after)]
         return LeftOut.of(self.after.as_declared(), few)
 
     def _looks_again(self) -> bool:
@@ -453,12 +365,6 @@ class _Search:
         self.last = self.seen = self.tried.looked()[0]
 
 
-def _may_grow(effect: str, after: Fit) -> bool:
-    """Whether elements of an effect may be let in one by one: no form is theirs to find."""
-    e = after.sensor.effect(effect)
-    return not (has_form(e) or scanned(e) or after.is_reduced)
-
-
 def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:
     """A model with what the samples themselves say of the output."""
     after, steps = before, []
@@ -482,106 +388,3 @@ def _in_order(options: list[Screened], fit: Fit) -> list[Screened]:
     if not fit.is_reduced:
         return options
     return [c for c in options if c.effect in STRUCTURE] or options
-
-
-def _by_fewer(after: Fit, steps: list[Step], search: _Search) -> tuple[Fit, list[Step], Screening]:
-    """The model, its steps and the last look without an effect that came in where another would
-    have done as well that is in the model, too, if that one does on the axes of both.
-    """
-    for one in steps:
-        others = [s for s in steps if s.effect in one.alternatives and _may_grow(s.effect, after)]
-        for other in () if one.declared or one.as_sampled else others:
-            more = _on_axes_of(one, other, after) - other.keys
-            free = (after.free - one.keys) | more
-            sensor = after.sensor.without(one.effect)
-            fewer = fit(replace(after, sensor=sensor, free=free).with_noise())
-            lost = advantage(after, fewer) / one.dispersion - PENALTY * (len(one.keys) - len(more))
-            if lost <= one.gate:
-                grown = replace(other, keys=other.keys | more, gain=other.gain + one.gain)
-                kept = [grown if s is other else s for s in steps if s is not one]
-                return fewer, kept, screen(fewer, search.sensor.values)
-    return after, steps, search.last
-
-
-def _on_axes_of(one: Step, other: Step, after: Fit) -> frozenset[Key]:
-    """The coefficients of another step's effect on the axes on which one acts."""
-    axes = {k.index[0] for k in one.keys if isinstance(k, Coefficient) and k.index}
-    every = coefficients_of(after.sensor, other.effect)
-    return frozenset(k for k in every if k.index and k.index[0] in axes)
-
-
-def without(inv: Investigation, effect: str, reason: str) -> Investigation:
-    """The investigation with an added effect taken back, for a ``reason`` found elsewhere; as it is
-    where that went with another one, to which it had leant.
-    """
-    step = next((s for s in inv.steps if s.effect == effect), None)
-    if step is None:
-        return inv
-    sensor = inv.after.sensor.without(effect)
-    after = fit(replace(inv.after, sensor=sensor, free=inv.after.free - step.keys).with_noise())
-    # What was found beside it may have leant on it.
-    after, kept = _backward(after, [s for s in inv.steps if s is not step], made=0)
-    steps = tuple(kept)
-    return replace(
-        inv,
-        after=_with_intervals(after, steps),
-        steps=steps,
-        refused=(*inv.refused, Refused(effect, step.gain, reason)),
-        last=screen(after, inv.before.sensor.values),
-    )
-
-
-def less_of_baseline(inv: Investigation, effects: Iterable[str]) -> Investigation:
-    """The investigation with its model after fitted anew without some effects that it began with;
-    what was found stays.
-    """
-    sensor, out = inv.after.sensor, set(effects)
-    for effect in out:
-        sensor = sensor.without(effect)
-    free = {k for k in inv.after.free if not (isinstance(k, Coefficient) and k.effect in out)}
-    prior = {k: s for k, s in inv.after.prior.items() if k.effect not in out}
-    less = replace(inv.after, sensor=sensor, free=frozenset(free), prior=prior)
-    return replace(inv, after=_with_intervals(fit(less.with_noise()), inv.steps))
-
-
-def _with_intervals(after: Fit, steps: Iterable[Step]) -> Fit:
-    """The fit with standard errors that hold although noise and elements were chosen by the same
-    rows.
-    """
-    return with_unknown_walk(with_left_out(after, [s.effect for s in steps if not s.declared]))
-
-
-def _scattering_at_last(after: Fit, steps: list[Step], last: Screening) -> list[Step]:
-    """Steps with no more scatter than scores have beside all that was found: what was missing when
-    an effect was taken in, and has come in since, no longer makes its standard errors large.
-    """
-    if len(steps) < 2:
-        return steps
-    normal = with_prior(equations(after), after)
-    usual = next((c.scatter for c in last.candidates), Scatter())
-    *earlier, latest = steps
-    fewer = [
-        replace(s, dispersion=min(s.dispersion, fitted_dispersion(normal, s.keys, usual)))
-        for s in earlier
-    ]
-    return [*fewer, latest]
-
-
-def _backward(after: Fit, steps: list[Step], made: int = 1) -> tuple[Fit, list[Step]]:
-    """Drop what later additions made superfluous; the last that was ``made`` is not.
-
-    A ceiling never is, the samples at it having been left out since, nor what samples show.
-    """
-    for step in [
-        s
-        for s in steps[: len(steps) - made]
-        if not (s.declared or s.as_sampled or is_ceiling(after.sensor, s.effect))
-    ]:
-        rest = [s for s in steps if s is not step]
-        kept = after.free - step.keys
-        without = fit(
-            replace(after, sensor=after.sensor.without(step.effect), free=kept).with_noise()
-        )
-        if advantage(after, without) / step.dispersion - PENALTY * len(step.keys) <= step.gate:
-            after, steps = without, rest
-    return after, steps

@@ -12,7 +12,7 @@ from pyimu.identification.fit.trial import Trial
 from pyimu.identification.model.model_of import Found
 from pyimu.identification.reference.belongs import too_little
 from pyimu.identification.reference.clock import moves
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.model.catalogue import CATALOGUE
 
 

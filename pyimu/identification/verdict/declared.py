@@ -7,7 +7,7 @@ import numpy as np
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.found.entries import Changed
 from pyimu.identification.noise.rounding import is_coarse
-from pyimu.identification.search.forward import Step
+from pyimu.identification.search.investigation import Step
 from pyimu.identification.search.leftover import NoiseFigure, drift, noise_figures, walk_gain
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.part import Part

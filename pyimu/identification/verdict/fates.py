@@ -11,7 +11,8 @@ from pyimu.identification.found.entries import Added
 from pyimu.identification.noise.rounding import is_read, shows_samples
 from pyimu.identification.search.candidates import equivalent
 from pyimu.identification.search.choice import LEAST_SHARE, MOST_REFINED, SET_WIDTH
-from pyimu.identification.search.forward import MOST_EFFECTS, Investigation, Step
+from pyimu.identification.search.forward import MOST_EFFECTS
+from pyimu.identification.search.investigation import Investigation, Step
 from pyimu.identification.verdict.unasked import why_unasked
 from pyimu.model.sensor import candidates
 from pyimu.report.numbers import joined, number

@@ -17,8 +17,8 @@ from pyimu.identification.noise.named import Noise, noise_of
 from pyimu.identification.noise.rounding import is_coarse
 from pyimu.identification.search.belief import most
 from pyimu.identification.search.choice import SET_WIDTH
-from pyimu.identification.search.forward import Investigation
 from pyimu.identification.search.inexact import left_by_forms
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.search.rounded import less_rounding, without_rounding
 from pyimu.identification.verdict.declared import changed_noise, drifting
 from pyimu.model.catalogue import CATALOGUE, WALK, WHITE

@@ -6,7 +6,7 @@ from pyimu.identification.fit.surroundings import PLACE
 from pyimu.identification.fit.trial import known_to_all
 from pyimu.identification.noise.rounding import HIDDEN, is_read, shows_samples
 from pyimu.identification.search.candidates import absent, has_columns
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.model.effect import Effect
 from pyimu.model.signals import inputs_of
 from pyimu.report.numbers import joined

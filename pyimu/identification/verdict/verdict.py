@@ -10,7 +10,7 @@ import numpy as np
 from pyimu.identification.fit.score import WINDOW
 from pyimu.identification.formula.constancy import REST
 from pyimu.identification.found.entries import Added, Changed, Errors
-from pyimu.identification.search.forward import AS_NOISE, AS_ROUNDING, Refused
+from pyimu.identification.search.investigation import AS_NOISE, AS_ROUNDING, Refused
 from pyimu.identification.search.judge import OF_REFERENCE
 from pyimu.identification.search.leftover import Unexplained
 from pyimu.identification.search.rounded import OF_DIGITS

@@ -8,7 +8,7 @@ from pyimu.errors import UserError
 from pyimu.identification.found.entries import Visibility
 from pyimu.identification.noise.rounding import is_read
 from pyimu.identification.search.candidates import has_columns
-from pyimu.identification.search.forward import Investigation
+from pyimu.identification.search.investigation import Investigation
 from pyimu.identification.verdict.unasked import UNEXCITED, why_unasked
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
