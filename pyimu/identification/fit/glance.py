@@ -16,10 +16,11 @@ import numpy as np
 
 from pyimu.identification.fit.columns import Linear, Stack
 from pyimu.identification.fit.errors_in_variables import has_noise
+from pyimu.identification.fit.filters import Innovations
 from pyimu.identification.fit.fit import Fit, with_prior
 from pyimu.identification.fit.keys import Key, Shape
 from pyimu.identification.fit.normal import DEAD, TOGETHER, Normal, normal_equations, solve
-from pyimu.identification.fit.whiten import Innovations, RandomWalk
+from pyimu.identification.fit.whiten import RandomWalk
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from pyimu.identification.fit.columns import Linear, in_band
+from pyimu.identification.fit.filters import Segments
 from pyimu.identification.fit.normal import Noise
 from pyimu.identification.fit.reduction import Unit
 from pyimu.identification.fit.trial import Trial
-from pyimu.identification.fit.whiten import Autoregressive, RandomWalk, Segments
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 from pyimu.model.catalogue import WALK, WHITE
 from pyimu.model.kinds import KINDS
 from pyimu.model.sensor import Sensor

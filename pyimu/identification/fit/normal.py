@@ -11,9 +11,10 @@ from itertools import pairwise, product
 import numpy as np
 
 from pyimu.identification.fit.columns import Linear, Stack
+from pyimu.identification.fit.filters import Filter
 from pyimu.identification.fit.keys import Key, LogBias, LogTurn
 from pyimu.identification.fit.reduction import Unit
-from pyimu.identification.fit.whiten import Autoregressive, Filter, RandomWalk
+from pyimu.identification.fit.whiten import Autoregressive, RandomWalk
 
 BATCHES = 80
 """Batches into which all rows are cut to see how much the scores really scatter."""

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import csr_array
 
+from pyimu.identification.fit.filters import Filter
 from pyimu.identification.fit.response import (
     after_dynamics,
     behind_dynamics,
@@ -23,7 +24,6 @@ from pyimu.identification.fit.response import (
     predict,
     with_memory,
 )
-from pyimu.identification.fit.whiten import Filter
 from pyimu.model.kinds import OWN
 from pyimu.model.sensor import Sensor
 
