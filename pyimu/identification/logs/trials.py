@@ -10,7 +10,7 @@ import numpy as np
 
 from pyimu.identification.fit.clock import Clock
 from pyimu.identification.fit.trial import HELD_OUT, Trial
-from pyimu.identification.reference.above import with_sensor_above
+from pyimu.identification.reference.above import with_gyro_above, with_sensor_above
 from pyimu.identification.reference.align import aligned
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.clock import rebanded
@@ -105,7 +105,7 @@ def _of_place(trial: Trial) -> Trial:
     """
     if is_differentiated(trial):
         return with_filter_left(quietened(rebanded(with_sensor_above(headed(trial)))))
-    return at_the_sensor(trial)
+    return at_the_sensor(with_gyro_above(trial))
 
 
 def has_reference(recording: Recording) -> bool:
