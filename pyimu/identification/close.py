@@ -153,12 +153,13 @@ def _on_time(
     samples of their own where rows hold these, and the gyro's trials of them.
     """
     logs, others = list(map(held_apart, logs)), list(map(held_apart, others))
-    turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
-    for undone in (unplayed_logs, partial(unfiltered_logs, sensor=sensor)):
-        found = undone(turning, logs=(logs, others))
+    made = partial(aligned_trials, sensor, gyro_trial, latitude=latitude)
+    turning = made(logs, others)
+    for undone in (unplayed_logs, partial(unfiltered_logs, sensor=sensor, made=made)):
+        found = undone(turning, (logs, others))
         if found is not None:
             logs, others = found
-            turning = aligned_trials(sensor, gyro_trial, logs, others, latitude)
+            turning = made(logs, others)
     clocks, both = clocks_of(turning), [*turning[0], *turning[1]]
     placed = (
         [with_sharp_places(with_upright_places(r, both), clocks, latitude) for r in some]

@@ -16,13 +16,18 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.identification.fit.damping import slopes
 from pyimu.identification.fit.inputs import copied, own_rate
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import Trial, marked
 from pyimu.identification.reference.place import at_the_point, with_force
+from pyimu.identification.reference.turned import turn_of
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.reference.filters import below
+from pyimu.recording.clock import runs
+from pyimu.recording.reference.filters import below, seen_as, turned_by
 from pyimu.recording.reference.unfiltered_places import GROUPS
 from pyimu.recording.reference.unsmoothed import SMOOTHED, TURNING, Smoothing
+
+GAP = 1.5
+"""Sample periods from which on two rows have a gap between them."""
 
 COLUMNS_OF_PLACES = frozenset(names[0] for names in GROUPS.values())
 
@@ -32,7 +37,7 @@ def with_sensor_above(trial: Trial) -> Trial:
     still lack as its sensor shows it, less the rows near an end where nobody knows what they lack;
     as it is where they lack nothing.
     """
-    smoothing, shown_hz = _smoothing(trial, COLUMNS_OF_PLACES), trial.place.shown_hz
+    smoothing, shown_hz = smoothing_of(trial, COLUMNS_OF_PLACES), trial.place.shown_hz
     if smoothing is None and shown_hz == np.inf:
         return trial
     reach = 0 if smoothing is None else smoothing.reach(trial.h)
@@ -49,21 +54,72 @@ def with_sensor_above(trial: Trial) -> Trial:
 
 
 def with_gyro_above(trial: Trial) -> Trial:
-    """The trial with the rate that its reference, once restored, still lacks as the gyro shows it;
-    as it is where it lacks none.
+    """The trial with the rate that its reference, once restored, still lacks as the gyro shows it,
+    less the rows near an end of the samples, where nobody knows what they lack; as it is where they
+    lack nothing.
+
+    What is left is then what the gyro's own motion, smoothed and restored alike, differs from the
+    reference by.
     """
-    smoothing = _smoothing(trial, TURNING)
+    smoothing = smoothing_of(trial, TURNING)
     if trial.kind != "gyro" or smoothing is None:
         return trial
-    u, lost, axes = copied(trial.u), np.zeros(trial.y.shape), list(trial.axes)
+    turn = turn_of(trial)[0] if trial.free_rotation else np.eye(3)
+    u, more, segments = copied(trial.u), np.zeros(trial.y.shape), []
+    reach, axes = smoothing.reach(trial.h), list(trial.axes)
+    for (a, b), (first, last) in _within_samples(trial, reach):
+        seen, known = trial.y[first:last] @ turn.T, slice(max(a, first + reach), last - reach)
+        known = slice(known.start, min(b, known.stop))
+        if known.stop - known.start <= reach:
+            continue
+        if trial.reference == "attitude":
+            lost = _attitude_more(smoothing, seen, u[first:last, OWN["gyro"]], trial.h)
+        else:
+            lost = np.zeros(seen.shape)
+            lost[:, axes] = smoothing.lost(seen[:, axes], trial.h)
+        more[known] = lost[known.start - first : known.stop - first]
+        segments.append((known.start, known.stop))
+    if not segments:
+        return trial
+    u[:, OWN["gyro"]] += more
+    seen = replace(trial, u=u, segments=segments)
+    u[:, own_rate("gyro")] += slopes(seen, more)
+    return seen
+
+
+def _within_samples(trial: Trial, reach: int) -> list[tuple[tuple[int, int], tuple[int, int]]]:
+    """Each segment of a trial, and the rows up to ``reach`` beyond it that the sensor knows without
+    a gap.
+    """
+    known = marked(trial.segments, len(trial.time))
+    known |= True if trial.left_out is None else ~trial.left_out
+    breaks = 1 + np.flatnonzero(np.diff(trial.time) > GAP * trial.h)
+    edges = np.unique(np.concatenate([[0], *runs(known), breaks, [len(known)]])).astype(int)
+    around = []
     for a, b in trial.segments:
-        lost[a:b, axes] = smoothing.lost(trial.y[a:b, axes], trial.h)
-    u[:, OWN["gyro"]] += lost
-    u[:, own_rate("gyro")] += slopes(trial, lost)
-    return replace(trial, u=u)
+        first = int(edges[np.searchsorted(edges, a, side="right") - 1])
+        last = int(edges[np.searchsorted(edges, b, side="left")])
+        around.append(((a, b), (max(first, a - reach), min(last, b + reach))))
+    return around
 
 
-def _smoothing(trial: Trial, columns: frozenset[str]) -> Smoothing | None:
+def _attitude_more(
+    smoothing: Smoothing, seen: np.ndarray, rate: np.ndarray, h: float
+) -> np.ndarray:
+    """What a ``rate`` (n, 3), of attitudes that were smoothed and restored, lacks of the one that
+    was ``seen`` (n, 3), ``h`` s apart: both in the axes of what they are of, between which lie the
+    turns that the smoothed attitudes have lost.
+    """
+    body = turned_by(seen, h)
+    kept = smoothing.attitudes(smoothing.smoothed(body, h), h)
+    lost = Rotation.from_quat(kept, scalar_first=True).inv() * Rotation.from_quat(
+        body, scalar_first=True
+    )
+    left = rate - seen_as(kept, body, seen, h)
+    return seen + lost.apply(left, inverse=True) - rate
+
+
+def smoothing_of(trial: Trial, columns: frozenset[str]) -> Smoothing | None:
     """The smoothing of some ``columns`` of a trial's reference that was undone, if any was."""
     found = (f for f in trial.findings if f.kind == SMOOTHED and f.column in columns)
     return next((Smoothing.of_detail(f.detail) for f in found), None)

@@ -47,7 +47,7 @@ def with_turned_force(log: Recording, trials: Sequence[Trial]) -> Recording:
     trial = next((t for t in trials if t.name == log.name and _may_be_turned(t)), None)
     if trial is None or not trial.free_rotation or log.ref_force is None or log.accel is None:
         return log
-    turn = _turn(trial)[0]
+    turn = turn_of(trial)[0]
 
     def turned(r: Recording) -> Recording:
         rate = None if r.ref_rate is None else r.ref_rate @ turn
@@ -100,14 +100,14 @@ def _mounted(trial: Trial, angle: float) -> Trial:
 
 def _angle(trial: Trial) -> float:
     """By how much the reference is turned, rad; zero where that is no turn, or a small one."""
-    turn, gain = _turn(trial)
+    turn, gain = turn_of(trial)
     angle = float(Rotation.from_matrix(turn).magnitude())
     size = 2.0 * np.sqrt(2.0) * np.sin(angle / 2.0)
     pure = np.linalg.norm(gain - turn) < PURE * size
     return angle if angle > LEAST and pure else 0.0
 
 
-def _turn(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
+def turn_of(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
     """The rotation (3, 3) with reference @ rotation nearest to what the sensor shows, and the gain
     (3, 3) with reference @ gain nearest; none where the motion does not show all of it.
     """

@@ -14,6 +14,7 @@ from pyimu.identification.reference.behind import Undo, without_filter
 from pyimu.identification.reference.behind_places import without_filter_of_places
 from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.play import unplayed
+from pyimu.identification.reference.resized import resized
 from pyimu.model.sensor import Sensor
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.force import has_places
@@ -31,14 +32,24 @@ def unplayed_logs(trials: tuple[list[Trial], list[Trial]], logs: Logs) -> Logs |
 
 
 def unfiltered_logs(
-    trials: tuple[list[Trial], list[Trial]], sensor: Sensor, logs: Logs
+    trials: tuple[list[Trial], list[Trial]],
+    logs: Logs,
+    sensor: Sensor,
+    made: Callable[..., tuple[list[Trial], list[Trial]]],
 ) -> Logs | None:
     """``logs`` with references that are behind no filter; None where none was.
 
-    ``trials`` are the gyro's of both, their references on the sensor's clock. A reference that was
-    behind a filter has a finding that says so.
+    ``trials`` are the gyro's of both, their references on the sensor's clock, as they are ``made``
+    of logs. A reference that was behind a filter has a finding that says so.
     """
-    return _undone(trials, lambda t: without_adapting(t) or without_filter(t, sensor), logs)
+    found = _undone(trials, lambda t: without_adapting(t) or without_filter(t, sensor), logs)
+    if found is None:
+        return None
+    sizes = {t.name: resized(t, sensor) for ts in made(*found) for t in ts}
+    return tuple(
+        [undo(was) if (undo := sizes.get(r.name)) else r for was, r in zip(*both, strict=True)]
+        for both in zip(logs, found, strict=True)
+    )
 
 
 def _undone(

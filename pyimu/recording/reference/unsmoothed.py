@@ -151,6 +151,10 @@ class Smoothing:
         """The frequency [Hz] up to which what was smoothed can be restored."""
         return float(KINDS[self.kind].clear / self.size)
 
+    def smoothed(self, q: np.ndarray, h: float) -> np.ndarray:
+        """Quaternions (n, 4), ``h`` s apart, entry by entry, and unit quaternions again."""
+        return units(self._of(one_sign(q), h))
+
     def attitudes(self, smoothed: np.ndarray, h: float) -> np.ndarray:
         """The quaternions (n, 4), ``h`` s apart, that ``smoothed`` ones were smoothed from, entry
         by entry, before they were made unit quaternions again.
