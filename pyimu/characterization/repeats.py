@@ -2,12 +2,15 @@
 
 Where the register that a logger reads was not refreshed, the sample before stands there once more.
 Left in, each counts as a second sample of the same noise: of every tenth N is 10 % too large.
+Where they stand at even intervals the sensor is slower than its log: the samples that are left are
+at its own rate then. Left in, N is 2 % too large where a logger reads 1.06 times as often as there
+are samples, and 6 % where it does so 1.5 times.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,18 +18,13 @@ from pyimu.characterization.samples import PIECE, Samples
 from pyimu.characterization.store import Store
 from pyimu.errors import Finding
 from pyimu.model.part import AXES
-from pyimu.recording.quality.stuck import at_even_intervals, hung_runs
-
-FEW = 1e-3
-"""Share of repeats below which they do not matter: N grows by as much."""
+from pyimu.recording.quality.repeats import Repeats, repeats
+from pyimu.recording.quality.stuck import hung_runs
 
 MOST = 0.1
 """Share of repeats above which nothing is said of a sensor's noise. Whether they are samples that
 were lost, or the sensor is slower than its log by their share, nobody knows: N differs by half of
 it."""
-
-BY_CHANCE = 0.3
-"""Part of the repeats that chance may make, where samples are rounded, for them to be left out."""
 
 HUNG_ALONE = 0.1
 """Share of a log for which an axis hung while the others did not, above which it is left out and
@@ -36,31 +34,53 @@ the others are not cut for it."""
 def without_repeats(
     sensors: Mapping[str, Samples], findings: Iterable[Finding], store: Store
 ) -> tuple[dict[str, Samples], list[Finding]]:
-    """The sensors without the samples that they repeat, and a finding ``repeated_samples`` of each
-    whose three axes do so together; of one that repeats too many, its axes are ``absent``.
-
-    Repeats at even intervals are left: they are of a sensor slower than its log (``held_samples``).
-    ``findings`` are those of the log.
+    """The sensors without the samples that they repeat, and ``findings``, those of the log, with
+    what is so found of each whose three axes do so together: ``held_samples`` where it is slower
+    than its log, and was brought to its own rate, else ``repeated_samples``; of one that repeats
+    too many, its axes are ``absent``.
     """
-    found = [(f.kind, f.column) for f in findings]
-    kept, said = {}, []
+    known = [f for f in findings if f.kind != "repeated_samples"]
+    kept = {}
     for kind, samples in sensors.items():
         # What firmware sets to zero is no repeat.
-        zeroed = any(k == "zeroed" and column.startswith(kind) for k, column in found)
-        stuck = {column for k, column in found if k == "stuck_samples"}
+        zeroed = any(f.kind == "zeroed" and f.column.startswith(kind) for f in known)
+        stuck = {f.column for f in known if f.kind == "stuck_samples"}
         hung, dead = _hung(samples, stuck, zeroed)
-        repeats = _Repeats(replace(samples, absent={**samples.absent, **dead}))
-        again, share = repeats.rows(hung) if not zeroed else (np.empty(0, int), 0.0)
-        if len(again):
-            detail = {"share": share, "first_row": samples.row(int(again[0]))}
-            said.append(Finding("repeated_samples", kind, len(again), detail))
-        lost = np.union1d(again, hung)
-        if share > MOST:
-            dead, lost = _too_many(share), lost[:0]
-        kept[kind] = _without(samples, lost, store) if len(lost) else samples
+        found = (
+            None if zeroed else _repeats(replace(samples, absent={**samples.absent, **dead}), hung)
+        )
+        lost, own_rate = hung, False
+        if found is not None:
+            own_rate = found.every is not None
+            known = [f for f in known if not (own_rate and _is_held(f, kind))]
+            known.append(_of_log(found.finding(kind, len(samples)), samples, found.share))
+            lost = np.union1d(found.rows, hung)
+            if found.share > MOST and not own_rate:
+                dead, lost = _too_many(found.share), lost[:0]
+        if found is not None and own_rate:
+            slower = replace(samples, h=samples.h * found.every)
+            kept[kind] = _without(slower, lost, hung, store)
+        else:
+            kept[kind] = _without(samples, lost, lost, store) if len(lost) else samples
         if dead:
             kept[kind] = replace(kept[kind], absent={**dead, **samples.absent})
-    return kept, said
+    return kept, known
+
+
+def _repeats(samples: Samples, hung: np.ndarray) -> Repeats | None:
+    live = [c for i, c in enumerate(samples.columns) if i not in samples.absent]
+    return repeats(live, samples.segments, hung)
+
+
+def _is_held(f: Finding, kind: str) -> bool:
+    return f.kind == "held_samples" and f.column.startswith(kind)
+
+
+def _of_log(f: Finding, samples: Samples, share: float) -> Finding:
+    """The same, with the row of the log for that of the samples."""
+    if "first_row" not in f.detail:
+        return f
+    return replace(f, detail={"share": share, "first_row": samples.row(f.detail["first_row"])})
 
 
 def _too_many(share: float) -> dict[int, str]:
@@ -102,57 +122,8 @@ def _hung_rows(column: np.ndarray, zeroed: bool) -> np.ndarray:
     return np.concatenate(rows)
 
 
-@dataclass(frozen=True)
-class _Repeats:
-    """The samples of a sensor all of whose axes show the value of the sample before."""
-
-    samples: Samples
-
-    def rows(self, hung: np.ndarray) -> tuple[np.ndarray, float]:
-        """Their numbers (k,) without ``hung``, where there are more than matters or chance makes,
-        and not at even intervals; and the share of the samples that chance does not make of them.
-        """
-        none, n = (np.empty(0, int), 0.0), len(self.samples)
-        live = [i for i in range(len(AXES)) if i not in self.samples.absent]
-        live = [i for i in live if np.ptp(self.samples.columns[i]) > 0]
-        if len(live) < 2:
-            return none
-        found, chance = self._together(live)
-        found = np.setdiff1d(found, hung, assume_unique=True)
-        few = len(found) < FEW * n or BY_CHANCE * len(found) < chance * n
-        if few or at_even_intervals(np.diff(found)):
-            return none
-        fresh = np.diff(np.setdiff1d(np.arange(n), found, assume_unique=True))
-        return none if at_even_intervals(fresh) else (found, len(found) / n - chance)
-
-    def _together(self, live: list[int]) -> tuple[np.ndarray, float]:
-        """The repeats (k,), and how probable one is by chance.
-
-        Axes repeat independently where rounding makes them. How often one does is told where
-        another does not.
-        """
-        found, each, others = [np.empty(0, int)], np.zeros(len(live)), np.zeros(len(live))
-        rows = 0
-        for first, same in self._same(live):
-            all_of_them = same.all(axis=0)
-            found.append(first + np.flatnonzero(all_of_them))
-            rows += same.shape[1]
-            each += np.sum(same & ~all_of_them, axis=1)
-            for k in range(len(live)):
-                others[k] += np.sum(np.delete(same, k, axis=0).all(axis=0))
-        return np.concatenate(found), float(np.prod(each / np.maximum(rows - others, 1)))
-
-    def _same(self, live: list[int]) -> Iterator[tuple[int, np.ndarray]]:
-        """By piece the number of its first sample, and whether axes repeat (len(live), k)."""
-        for start, stop in self.samples.segments:
-            for a in range(start + 1, stop, PIECE):
-                b = min(a + PIECE, stop)
-                columns = (np.array(self.samples.columns[i][a - 1 : b]) for i in live)
-                yield a, np.array([c[1:] == c[:-1] for c in columns])
-
-
-def _without(samples: Samples, rows: np.ndarray, store: Store) -> Samples:
-    """The samples without some of them (k,), where gaps are then."""
+def _without(samples: Samples, rows: np.ndarray, gaps: np.ndarray, store: Store) -> Samples:
+    """The samples without some of them (k,); where ``gaps`` (m,) of these were, gaps are then."""
     for a in range(0, len(samples), PIECE):
         b = min(a + PIECE, len(samples))
         kept = np.ones(b - a, bool)
@@ -160,7 +131,7 @@ def _without(samples: Samples, rows: np.ndarray, store: Store) -> Samples:
         store.append(f"{samples.kind}_fresh_time", samples.time[a:b][kept])
         for axis, column in zip(AXES, samples.columns, strict=True):
             store.append(f"{samples.kind}_fresh_{axis}", column[a:b][kept])
-    edges = np.unique(np.concatenate((np.ravel(samples.segments), rows, rows + 1)))
+    edges = np.unique(np.concatenate((np.ravel(samples.segments), gaps, gaps + 1)))
     edges = np.unique(edges - np.searchsorted(rows, edges)).astype(int).tolist()
     return replace(
         samples,

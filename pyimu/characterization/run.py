@@ -91,10 +91,10 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
     with Store() as store:
         read = read_samples(source, name, store, say)
         wrapped = {f.column for f in read.findings if f.kind == "wrapped"}
-        fresh, repeats = without_repeats(read.sensors, read.findings, store)
+        fresh, found = without_repeats(read.sensors, read.findings, store)
         moving = [f for s in fresh.values() for f in s.motion(wrapped)]
         sensors, handled = without_ends(fresh, wrapped) if moving else (fresh, [])
-        known, moving = read.findings, [] if handled else moving
+        known, moving = tuple(found), [] if handled else moving
         if handled:
             known = tuple(of_what_is_left(known, sensors))
         # Raw counts in a false unit look like motion.
@@ -110,7 +110,7 @@ def _log(source: Recording | Log, name: str, level: float, T0: float | None, say
         }
         if not any(c.noise for r in results.values() for c in r.channels):
             raise UserError(_nothing(name, results))
-        findings = (*known, *repeats, *handled, *moving, *shocks)
+        findings = (*known, *handled, *moving, *shocks)
         shown = evidence(findings, read.sensors)
         findings = (*findings, *_warm_ups(results.values()))
         field = _magnetometer(source, moving, say)

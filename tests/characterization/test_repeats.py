@@ -88,6 +88,34 @@ def test_a_sensor_slower_than_its_log_keeps_its_samples(every):
         assert n.value == pytest.approx(N * np.sqrt(every), abs=FAR * n.std + 0.02 * n.value)
 
 
+def read_at(times: np.ndarray, rate: float) -> np.ndarray:
+    """The samples of a sensor of ``rate`` Hz that are there at ``times`` (n,) s: white noise N."""
+    number = np.floor((times - times.min()) * rate + 0.37).astype(int)
+    made = np.random.default_rng(6).normal(size=(number.max() + 1, 3))
+    return N * np.sqrt(rate) * made[np.maximum.accumulate(number)]
+
+
+@pytest.mark.parametrize("reads", [1.06, 1.5, 2.3])
+@pytest.mark.parametrize("scatter", [0.0, 0.05], ids=["even", "scattered"])
+def test_a_logger_quicker_than_its_sensor(reads, scatter):
+    """N is that of white noise at the sensor's own rate; scattered reads lose up to 1 % of it."""
+    times = H * (np.arange(ROWS) + scatter * np.random.default_rng(7).normal(size=ROWS))
+    c = characterize(read_at(times, 1 / (reads * H)))
+    assert [f.column for f in c.findings if f.kind == "held_samples"] == ["gyro"]
+    assert "is slower than its log" in c.report()
+    for channel in c.logs[0].channels:
+        n = channel.coefficient("N")
+        assert abs(n.value - N) < FAR * n.std + 0.005 * N
+    assert 1 / c.part().sample_rate == pytest.approx(reads * H, rel=0.01)
+
+
+def test_reads_too_uneven_for_a_rate():
+    """A tenth of the samples is lost, and a quarter of the rows repeats the one before."""
+    times = H * (np.arange(ROWS) + 0.3 * np.random.default_rng(7).normal(size=ROWS))
+    with pytest.raises(UserError, match="neither the sensor's rate nor its noise"):
+        characterize(read_at(times, 1 / (1.2 * H)))
+
+
 def test_equal_samples_by_rounding_stay():
     step = 2 * N / np.sqrt(H)
     c = characterize(step * np.round(noise() / step))

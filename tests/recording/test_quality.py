@@ -116,6 +116,23 @@ def test_stuck_runs_in_a_thousandth_of_the_samples():
     assert found(recording(values), "stuck_samples")["gyro_y"].count == 20
 
 
+@pytest.mark.parametrize(
+    ("again", "kind"), [("by chance", "repeated_samples"), ("every 17th", "held_samples")]
+)
+def test_repeats_of_all_axes_are_of_their_sensor(again, kind):
+    """Even ones are of a sensor slower than its log: 16 samples in 17 rows."""
+    rng, rows = np.random.default_rng(2), np.arange(8192)
+    same = rng.uniform(size=len(rows)) < 0.06 if again == "by chance" else rows % 17 == 16
+    gyro = rng.normal(size=(len(rows), 3))[np.maximum.accumulate(np.where(same, 0, rows))]
+    log = Recording.from_arrays("log", time=0.01 * rows, gyro=gyro, accel=9.81 + 0 * gyro)
+    (found,) = [f for f in inspect(log) if f.kind in ("repeated_samples", "held_samples")]
+    assert (found.kind, found.column) == (kind, "gyro")
+    if kind == "held_samples":
+        assert found.detail["rows"] == pytest.approx(17 / 16, abs=1e-3)
+    else:
+        assert found.count == np.sum(same[1:])
+
+
 def test_stuck_threshold_is_that_of_the_geometric_law():
     """On a comb with repeat probability p the shortest stuck run of n samples has n (1 - p) p^(m -
     1) < 0.001.

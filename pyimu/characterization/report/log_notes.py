@@ -146,6 +146,13 @@ def doubts(log: LogResult) -> Iterator[str]:
         )
         if columns:
             yield f"{log.name}: {', '.join(columns)}: {text}."
+    for f in log.findings:
+        if f.kind == "held_samples" and f.column in SENSORS:
+            yield (
+                f"{log.name}: the {SENSORS[f.column]} is slower than its log and has a new sample "
+                f"every {number(f.detail['rows'])} rows: its noise is that of these samples, at "
+                f"{1 / log.sensors[f.column].h:.6g} Hz."
+            )
     removed = [ch.compensated_for for ch in log.channels if "warm-up" in ch.compensated_for]
     for text in dict.fromkeys(removed):
         columns = [ch.name for ch in log.channels if ch.compensated_for == text]

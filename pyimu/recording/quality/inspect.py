@@ -6,7 +6,7 @@ threshold from the column itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 
 import numpy as np
 
@@ -14,9 +14,10 @@ from pyimu.errors import Finding
 from pyimu.recording.clock import Clock
 from pyimu.recording.columns import XYZ, column_names
 from pyimu.recording.quality.clipping import clipped, clipping_findings
+from pyimu.recording.quality.repeats import repeats
 from pyimu.recording.quality.resolution import quantization_step
 from pyimu.recording.quality.spikes import spikes, widened
-from pyimu.recording.quality.stuck import LEAST_RUN, held_findings, stuck_findings
+from pyimu.recording.quality.stuck import LEAST_RUN, held_findings, hung_runs, stuck_findings
 from pyimu.recording.quality.wraps import wrap_findings
 from pyimu.recording.quality.zeroed import zeroed_findings
 from pyimu.recording.recording import Recording
@@ -75,7 +76,8 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
     """The findings from raw gyro and accelerometer samples and their times.
 
     ``zeroed``, ``constant_channel``, ``wrapped``, ``clipping``, ``stuck_samples``,
-    ``held_samples``, ``spikes``, ``quantization_step`` for each column; ``jitter``,
+    ``held_samples``, ``spikes``, ``quantization_step`` for each column; ``repeated_samples`` and
+    ``held_samples`` for each sensor; ``jitter``,
     ``gravity_down``, ``force_in_g``, ``force_unit``, ``no_gravity``, ``gyro_fast``,
     ``gyro_at_rest``, ``gyro_noisy`` and ``temperature_unit`` for the recording.
     """
@@ -87,6 +89,7 @@ def inspect(recording: Recording) -> tuple[Finding, ...]:
         for name, column in zip(names, values.T)
         for finding in _column(name, np.ascontiguousarray(column), name in silent)
     ]
+    columns += _repeats(recording, columns, silent)
     quiet, force = _resting_force(recording)
     of_gravity = (*_gravity_down(recording, force), *_force_in_g(quiet), *_force_unit(quiet))
     of_gravity += tuple(_no_gravity(quiet))
@@ -187,6 +190,24 @@ def _column(name: str, values: np.ndarray, zeroed: bool) -> Iterator[Finding]:
     step = quantization_step(values)
     if step is not None:
         yield Finding("quantization_step", name, len(known), {"step": step})
+
+
+def _repeats(
+    recording: Recording, columns: Iterable[Finding], zeroed: Container[str]
+) -> Iterator[Finding]:
+    """What the rows are of each sensor in which all its axes repeat the row before; that it is held
+    is said once, of each axis where that shows it.
+    """
+    held = {f.column for f in columns if f.kind == "held_samples"}
+    for group in ("gyro", "accel"):
+        values, names = getattr(recording, group), column_names(group)
+        if values is None or group in zeroed or any(name in zeroed for name in names):
+            continue
+        hung = [np.arange(a + 1, b) for v in values.T for a, b in hung_runs(v)]
+        rows = np.unique(np.concatenate([np.empty(0, int), *hung]))
+        found = repeats([*np.ascontiguousarray(values.T)], recording.segments, rows)
+        if found is not None and not (found.every and held.intersection(names)):
+            yield found.finding(group, len(values))
 
 
 def _spikes(recording: Recording) -> Iterator[Finding]:
