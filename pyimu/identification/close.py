@@ -34,7 +34,7 @@ from pyimu.identification.reference.align import in_band_of
 from pyimu.identification.reference.belongs import misfit
 from pyimu.identification.reference.gravity import rest_trials
 from pyimu.identification.reference.mirrored import mirrored
-from pyimu.identification.reference.of_itself import made_of_it
+from pyimu.identification.reference.of_itself import made_of_it, rate_made_of_it
 from pyimu.identification.reference.place import is_differentiated
 from pyimu.identification.reference.same_output import own_output
 from pyimu.identification.reference.told import told
@@ -205,7 +205,8 @@ def _investigated(
             trials, held = turned or (trials, held)
         if trials:
             by_attitude = kind == "gyro" or any(map(is_differentiated, trials))
-            unfit = (own if by_attitude else "") or own_output([*logs, *others], kind)
+            rate = rate_made_of_it([*trials, *held]) if kind == "gyro" else ""
+            unfit = (own if by_attitude else "") or own_output([*logs, *others], kind) or rate
             examine = partial(_examined, start, declared, say, unfit)
             remade = partial(_remade, examine, made, bool(others))
             looks[kind] = likelier_clock(

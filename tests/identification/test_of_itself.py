@@ -10,7 +10,8 @@ from turns import turned
 
 import pyimu
 from pyimu.identification.fit.trials import gyro_trial
-from pyimu.identification.reference.of_itself import is_of_itself, pulled
+from pyimu.identification.reference.common_noise import shows_noise_of_gyro
+from pyimu.identification.reference.of_itself import pulled
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.file import with_reference
 
@@ -55,10 +56,64 @@ def test_the_noise_tells_an_attitude_of_the_gyros_own(own, rests):
     seen = true * Rotation.from_rotvec(2e-4 * rng.standard_normal(rate.shape))
     q = fused(gyro, true, 0.1) if own else seen
     log = Recording.from_arrays("phone", time=time, gyro=gyro, ref_q=q.as_quat(scalar_first=True))
-    assert is_of_itself(gyro_trial(log)) == own
+    assert shows_noise_of_gyro(gyro_trial(log)) == own
     closed = pyimu.close(log)
     assert (closed.verdict == "reference_unfit") == own, closed.report()
     assert ("shows the gyro's own noise" in closed.reason) == own
+
+
+BESIDE = {
+    "as it is": lambda gyro, rng: gyro,
+    "with half as much noise": lambda gyro, rng: gyro + 0.5 * noise(rng),
+    "smoothed over 0.1 s": lambda gyro, rng: gaussian_filter1d(gyro, 3.0, axis=0),
+}
+"""What is done to a gyro's samples before they are integrated."""
+
+
+def noise(rng) -> np.ndarray:
+    return WHITE * rng.standard_normal((int(RATE * SECONDS), 3))
+
+
+@pytest.mark.parametrize("rate", [True, False], ids=["rate", "attitude"])
+@pytest.mark.parametrize("made", [*BESIDE, "of a second gyro", "of a camera"])
+def test_what_was_made_of_the_gyro_has_its_noise(made, rate):
+    """A second gyro of half the noise, and a camera, have none of it. What is smoothed is left out
+    of the rates: nothing but a gain of one tells them from what shakes both.
+    """
+    time, true, attitude = hand(4, rests=True)
+    rng = np.random.default_rng(5)
+    gyro = true + 0.003 + noise(rng)
+    if made == "of a camera":
+        q = attitude * Rotation.from_rotvec(2e-5 * rng.standard_normal(true.shape))
+        seen = true
+    else:
+        seen = BESIDE.get(made, lambda *_: true + 0.5 * noise(rng))(gyro - 0.003, rng)
+        q = turned(Rotation.from_rotvec(0.5 * (seen[1:] + seen[:-1]) / RATE))
+    what = {"ref_rate": seen} if rate else {"ref_q": q.as_quat(scalar_first=True)}
+    log = Recording.from_arrays("log", time=time, gyro=gyro, **what)
+    told = made in BESIDE and not (rate and made.startswith("smoothed"))
+    assert shows_noise_of_gyro(gyro_trial(log)) == told
+
+
+def test_a_rate_of_the_gyro_with_noise_beside_it_is_no_reference():
+    time, true, _ = hand(4, rests=True)
+    rng = np.random.default_rng(5)
+    gyro = true + 0.003 + noise(rng)
+    ref = gyro + 0.5 * noise(rng)
+    closed = pyimu.close(Recording.from_arrays("log", time=time, gyro=gyro, ref_rate=ref))
+    assert closed.verdict == "reference_unfit"
+    assert "the ref_rate of log shows the gyro's own noise" in closed.reason
+
+
+@pytest.mark.parametrize("noise_of_reference", [0.05, 1.0])
+def test_what_shakes_both_is_not_the_gyros_noise(noise_of_reference):
+    """White, and five times the noise of the gyro, so that its gain is 25 / 26."""
+    time, true, _ = hand(4, rests=True)
+    rng = np.random.default_rng(6)
+    true = true + 5.0 * noise(rng)
+    ref = true + noise_of_reference * noise(rng)
+    log = Recording.from_arrays("log", time=time, gyro=true + noise(rng), ref_rate=ref)
+    assert not shows_noise_of_gyro(gyro_trial(log))
 
 
 GRAVITY = 9.80665
@@ -174,4 +229,4 @@ def test_a_motion_far_above_the_noise_is_not_the_gyros_own_noise():
     gyro = rate + 1e-9 * rng.standard_normal(rate.shape)
     seen = true * Rotation.from_rotvec(1e-10 * rng.standard_normal(rate.shape))
     log = Recording.from_arrays("hand", time=time, gyro=gyro, ref_q=seen.as_quat(scalar_first=True))
-    assert not is_of_itself(gyro_trial(log))
+    assert not shows_noise_of_gyro(gyro_trial(log))

@@ -2,11 +2,11 @@
 phone, or a unit with a filter of its own, gives beside its samples.
 
 What such a one shows is what its gyro shows, noise and all, but for what gravity or a field puts
-right. Where nothing moves two instruments have nothing in common; these have the noise. And what
-such a filter turns beside the gyro, towards the accelerometer's up, follows the force however a
-body is pushed: Mahony et al. 2008, their explicit filter, w = w_gyro + k (u x v), with the
-direction u of the force and v of the vertical by the attitude. Such an attitude leans where the
-body is pushed, and an accelerometer that is judged by it seems to be wrong.
+right (``common_noise``). And what such a filter turns beside the gyro, towards the accelerometer's
+up, follows the force however a body is pushed: Mahony et al. 2008, their explicit filter, w =
+w_gyro + k (u x v), with the direction u of the force and v of the vertical by the attitude. Such an
+attitude leans where the body is pushed, and an accelerometer that is judged by it seems to be
+wrong.
 """
 
 from __future__ import annotations
@@ -14,40 +14,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 import numpy as np
-from scipy.fft import rfft
-from scipy.signal.windows import hann
 from scipy.spatial.transform import Rotation
 
-from pyimu.identification.fit.sample_noise import rest_noise
 from pyimu.identification.fit.trial import Trial
+from pyimu.identification.reference.common_noise import shows_noise_of_gyro
 from pyimu.identification.search.belief import most
-from pyimu.model.kinds import OWN
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.attitude import attitude_at
 from pyimu.recording.turning import carried
 from pyimu.report.numbers import number
 from pyimu.units import STANDARD_GRAVITY
-
-SECONDS = 1.0
-"""Length of the windows; the quietest quarter of them is looked at."""
-
-LEAST = 16
-"""Quiet windows that there must be: of unrelated noise so many cohere by a sixteenth."""
-
-IN_COMMON = 0.75
-"""Coherence on each axis from which on the noise is one: simulated phones have 0.90 to 0.99, arms,
-cameras and trackers up to 0.23."""
-
-WHITE = 2.0
-"""Times the white noise of the gyro's samples that both signals have in the windows at most, or
-something moves in them, or the reference has noise of its own. The gyro has at least a part of it
-that is as many times smaller, or what was taken for noise is a motion that ends below.
-"""
-
-BETWEEN = 0.8, 1.6
-"""Times the highest frequency to which a reference is used, between which is looked: below, hands
-tremble, and filters put right."""
-
 
 BLOCK = 0.2
 """s; over so long the turns of reference and gyro are compared."""
@@ -72,18 +48,28 @@ def made_of_it(trials: Iterable[Trial], logs: Iterable[Recording]) -> str:
 
 def _made_of_it(trial: Trial, logs: Mapping[str, Recording]) -> str:
     others = "and tells nothing of {} errors; cameras, encoders or a second unit would"
-    if is_of_itself(trial):
-        return (
-            f"the attitude of {trial.name} shows the gyro's own noise: it was computed from this "
-            f"gyro, {others.format('its')}"
-        )
     pull = 0.0 if trial.name not in logs else pulled(trial, logs[trial.name])
-    if not pull:
-        return ""
+    if pull:
+        return (
+            f"the attitude of {trial.name} is the gyro's, drawn towards the accelerometer's force "
+            f"by {number(pull, 2)} rad/s for each rad: a filter computed it from these two, "
+            f"{others.format('their')}"
+        )
+    own = trial.reference == "attitude" and shows_noise_of_gyro(trial)
+    return _shows_noise("attitude", trial, others.format("its")) if own else ""
+
+
+def rate_made_of_it(trials: Iterable[Trial]) -> str:
+    """The same of a measured rate, which may be the gyro's with other noise beside it."""
+    others = "and tells nothing of its errors; another instrument would"
+    own = (t for t in trials if t.reference == "rate" and shows_noise_of_gyro(t))
+    return next((_shows_noise("ref_rate", t, others) for t in own), "")
+
+
+def _shows_noise(what: str, trial: Trial, others: str) -> str:
     return (
-        f"the attitude of {trial.name} is the gyro's, drawn towards the accelerometer's force by "
-        f"{number(pull, 2)} rad/s for each rad: a filter computed it from these two, "
-        f"{others.format('their')}"
+        f"the {what} of {trial.name} shows the gyro's own noise: it was computed from this gyro, "
+        f"{others}"
     )
 
 
@@ -136,32 +122,3 @@ def _beside_and_pull(
     attitude = Rotation.from_quat(q[rows].reshape(-1, 4), scalar_first=True)
     up = attitude.inv().apply([0.0, 0.0, 1.0]).reshape(*rows.shape, 3)
     return gyro.mean(axis=1), beside, np.cross(force[rows], up).mean(axis=1)
-
-
-def is_of_itself(trial: Trial) -> bool:
-    """Whether the reference's attitude shows the gyro's own noise on every axis."""
-    if trial.kind != "gyro" or trial.reference != "attitude" or trial.band_limit is None:
-        return False
-    axes, length = list(trial.axes), round(SECONDS / trial.h)
-    signals = np.hstack([trial.y[:, axes], trial.u[:, OWN[trial.kind]][:, axes]])
-    starts = [s for a, b in trial.segments for s in range(a, b - length + 1, length)]
-    if len(starts) < 4 * LEAST:
-        return False
-    pieces = np.array([signals[s : s + length] for s in starts])
-    quiet = np.argsort(pieces[:, :, : len(axes)].var(axis=1).sum(axis=1))[: len(starts) // 4]
-    pieces = pieces[quiet] - pieces[quiet].mean(axis=1, keepdims=True)
-    window = hann(length, sym=False)
-    z = rfft(pieces * window[:, None], axis=1)
-    frequency = np.fft.rfftfreq(length, trial.h)
-    low, high = (share * trial.band_limit for share in BETWEEN)
-    z = z[:, (frequency > low) & (frequency <= high)]
-    if not z.shape[1]:
-        return False
-    y, x = np.split(z, 2, axis=2)
-    powers = [np.mean(np.abs(v) ** 2, axis=0) for v in (y, x)]
-    product = np.abs(np.mean(y.conj() * x, axis=0)) ** 2
-    coherence = np.mean(product / np.maximum(powers[0] * powers[1], 1e-300), axis=0)
-    white = rest_noise(trial)[axes] ** 2 * (window @ window)
-    small = all(np.all(p.mean(axis=0) < WHITE * white) for p in powers)
-    is_noise = np.all(powers[0].mean(axis=0) > white / WHITE)
-    return bool(np.all(coherence > IN_COMMON) and small and is_noise)
