@@ -31,6 +31,15 @@ def inspect_command(
         Path | None, typer.Option("--out", help="Folder for report.html with pictures.")
     ] = None,
     columns: Columns = None,
+    sensor: Annotated[
+        str,
+        typer.Option(
+            "--sensor",
+            metavar="NAME",
+            help="Of a table with several sensors the one to read, as its columns call it.",
+            show_default=False,
+        ),
+    ] = "",
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -43,14 +52,17 @@ def inspect_command(
     Exit status: 0, 1 for a log that cannot be read without more said, in a column map, or 2 for bad
     input.
     """
+    from pyimu.errors import UserError
     from pyimu.files import check_folder, json_text
     from pyimu.inspection.run import inspect
 
     check_told(as_json, quiet)
+    if sensor and columns is not None:
+        raise UserError("--sensor: a column map (--columns) says which columns are read; give one")
     if out is not None:
         check_folder(out)
     with progress("opening") as say:
-        found = inspect(files, columns, say)
+        found = inspect(files, columns, say, sensor)
         if out is not None:
             say("drawing the report")
             found.write(out)

@@ -38,12 +38,14 @@ def inspect(
     paths: Given | Sequence[Given],
     columns: Given | None = None,
     say: Callable[..., None] = silent,
+    sensor: str = "",
 ) -> Inspection:
     """What is in a log, or in the files of one log, the first of which holds its gyro.
 
-    ``columns`` is a column map that is there already. Raises UserError for files that are no table
-    of numbers at all; what else keeps a log from being read is in the result, with a map by the
-    numbers where it is the header's units.
+    ``columns`` is a column map that is there already, ``sensor`` the name of that sensor of a table
+    with several whose vectors are looked for, as its columns have it. Raises UserError for files
+    that are no table of numbers at all; what else keeps a log from being read is in the result,
+    with a map by the numbers where it is the header's units.
     """
     given = [Path(paths)] if isinstance(paths, (str, os.PathLike)) else [Path(p) for p in paths]
     data = {} if columns is None else read_toml(Path(columns))
@@ -57,15 +59,17 @@ def inspect(
     say("looking at the columns")
     readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
     readers, foreign = _with_made_columns(readers, foreign)
-    known = None if foreign is not None else recognised(readers[0])
+    known = None if foreign is not None or sensor else recognised(readers[0])
     if foreign is None and known is None and len(readers) == 1:
         readers += [open_reader(given[0], {"imu": topic}) for topic in readers[0].words]
-    maps = [_own_map(reader, foreign, index) for index, reader in enumerate(readers)]
-    kind = _kind(readers[0], known is not None, foreign is not None)
+    maps = [
+        None if sensor else _own_map(reader, foreign, index) for index, reader in enumerate(readers)
+    ]
+    kind = "guessed" if sensor else _kind(readers[0], known is not None, foreign is not None)
     guessed = None in maps and (foreign is None or not foreign.columns)
     if guessed:
         kind = "guessed"
-    proposals = _proposals(readers, maps, foreign)
+    proposals = _proposals(readers, maps, foreign, sensor)
     with_units = kind == "own" or (known is not None and known[0] == STATED)
     if foreign is None and with_units:
         _with_offers(proposals[0], readers[0])
@@ -179,7 +183,10 @@ def _declared(reader: Reader, foreign: ForeignMap) -> Proposal:
 
 
 def _proposals(
-    readers: Sequence[Reader], maps: Sequence[ForeignMap | None], foreign: ForeignMap | None
+    readers: Sequence[Reader],
+    maps: Sequence[ForeignMap | None],
+    foreign: ForeignMap | None,
+    sensor: str,
 ) -> list[Proposal]:
     """What is declared, or else guessed, of each file's columns.
 
@@ -187,7 +194,7 @@ def _proposals(
     """
     rate = None if foreign is None else foreign.rate
     found = [
-        proposed(reader, rate)
+        proposed(reader, rate, sensor=sensor)
         if own is None
         else _declared(reader, replace(own, rate=own.rate or rate))
         for reader, own in zip(readers, maps, strict=True)
@@ -201,7 +208,7 @@ def _proposals(
         forces_of = (forces(r, p) for r, p in zip(readers, found, strict=True))
         beside = next((force for force in forces_of if force is not None), None)
         for k in asked if beside is not None else ():
-            found[k] = proposed(readers[k], rate, beside)
+            found[k] = proposed(readers[k], rate, beside, sensor)
     if foreign is None:
         _once(_ordered(found))
     else:

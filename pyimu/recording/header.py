@@ -82,6 +82,11 @@ class Header:
             name.strip() for name, bracket, _ in (h.partition("[") for h in header) if bracket
         }
         self._stated = {c.partition("[")[0].strip() for c in self._cells if "[" in c}
+        self._mapped = {
+            new.partition("[")[0].strip()
+            for new, old in zip(header, self._cells, strict=False)
+            if new != old
+        }
         foreign = bool(self._given - self._stated)
         said = (c.partition("[")[0].strip() for c in self._cells if "[" in c or not foreign)
         self._ours = any(name in UNITS for name in said)
@@ -143,11 +148,13 @@ class Header:
         self.units.append(self._unit(name, unit[:-1]))
 
     def _is_replaced(self, position: int, name: str, cell: str) -> bool:
-        """Whether a column's own name says no unit, and a map gives the name to another one, or
-        says what the sensor's columns are without it: a magnetometer's, whose unit nobody knows, a
+        """Whether a map gives a column's own name to another one, or the name says no unit, and the
+        map what the sensor's columns are without it: a magnetometer's, whose unit nobody knows, a
         temperature's.
         """
         own = position < len(self._cells) and self._cells[position] == cell
+        if own and name in self._mapped:
+            return True
         if not own or cell.strip() != name:
             return False
         mapped = {name for name in self._given if name not in self._stated}
@@ -188,7 +195,8 @@ class Header:
     def _unknown(self, name: str, cell: str) -> None:
         if self._crowded or cell.endswith(OF_OTHERS):
             return
-        near = name not in UNITS and units.did_you_mean(name, UNITS, cutoff=0.8)
+        others = [own for own in UNITS if own not in self._given]  # accel2_x beside accel_x
+        near = name not in UNITS and units.did_you_mean(name, others, cutoff=0.8)
         if near and (self._ours or cell not in self._cells):
             raise UserError(f"{self.path}: unknown column '{name}'{near}")
         self.findings.append(Finding("unused_column", name, 1, {"header": cell}))

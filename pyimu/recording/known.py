@@ -301,7 +301,7 @@ def stated(
             continue
         if needed and (triad.unit is None or rivals or triad.score < 4):
             return None
-        if triad.names[1].cell.strip().isdigit():
+        if triad.names[1].cell.strip().isdigit() or triad.is_of_vehicle:
             return None
         if triad.unit is not None and not rivals:
             columns |= triad_map([name.cell for name in triad.names], group, triad.unit)

@@ -1,6 +1,6 @@
 """Tables whose rows are not all of one sensor: those of several devices, which a column names
-(``WT901(eb:33:2e)``), and those in which gyro and accelerometer each have rows of their own, with
-empty cells beside them.
+(``WT901(eb:33:2e)``), those of several people one behind the other, and those in which gyro and
+accelerometer each have rows of their own, with empty cells beside them.
 """
 
 from __future__ import annotations
@@ -26,6 +26,17 @@ DEVICES = {"device", "sensor", "imu", "node", "unit", "instance", "address", "ad
 }
 """Words in the name of a column whose cells say which device a row is of, beside ``name`` and
 ``id``."""
+
+PEOPLE = {"subject", "subj", "participant", "person", "user", "patient", "volunteer", "athlete"} | {
+    "player",
+    "rider",
+    "driver",
+    "wearer",
+}
+"""Words in the name of a column whose cells say whom a row is of, beside ``NUMBERED``: people come
+one behind the other, the second perhaps far behind the first rows."""
+
+NUMBERED = {"id", "no", "nr", "num", "number", "name", "code", "index"}
 
 MOST_DEVICES = 16
 """Devices whose rows stand in one table, at most."""
@@ -84,6 +95,9 @@ def mixed_rows(lines: Sequence[str], topic: str = "") -> Mixed | None:
             continue
         found = triads(cells[names])
         vectors = {kind: triad for kind in KINDS if (triad := surest(found, kind)[0]) is not None}
+        person = next((k for k, cell in enumerate(cells[names]) if _names_people(cell)), None)
+        if person is not None and {"gyro", "accel"} & set(vectors):
+            return _of_person(person, cells[names][person], below, separator, topic)
         if {"gyro", "accel"} <= set(vectors):
             at = [k for k, cell in enumerate(cells[names]) if _names_devices(cell)]
             devices = _of_devices(at, width, below, separator, topic)
@@ -127,6 +141,33 @@ def _names_devices(cell: str) -> bool:
     name = named(cell)
     known = set(name.words) & DEVICES
     return bool(known) and set(name.words) <= DEVICES | {"name", "id"} and not name.axis
+
+
+def _names_people(cell: str) -> bool:
+    """Whether a column is called as one is that says whom a row is of: ``subject_id``, ``User``."""
+    name = named(cell)
+    known = set(name.words) & PEOPLE
+    return bool(known) and set(name.words) <= PEOPLE | NUMBERED and not name.axis
+
+
+def _of_person(
+    at: int, name: str, rows: Sequence[Sequence[str]], separator: str, topic: str
+) -> Mixed | None:
+    """The rows of the first person, or that of the name ``topic``; None where rows of each come in
+    turn, or name nobody.
+    """
+    words = [row[at] for row in rows]
+    changes = sum(a != b for a, b in zip(words, words[1:], strict=False))
+    if any(w in MISSING for w in words) or len(words) < LEAST or changes > len(words) // 4:
+        return None
+    own, width = topic or words[0], len(rows[0])
+
+    def keeps(line: str) -> bool:
+        row = _cells(line, separator)
+        return len(row) != width or row[at] in (own, name)
+
+    said = f"the rows of {name} {own} alone, [topics] imu in a column map names another"
+    return Mixed(own, (), keeps, said)
 
 
 def _come_in_turn(words: Sequence[str]) -> bool:

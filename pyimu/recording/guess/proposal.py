@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyimu.errors import UserError
 from pyimu.numerics.columns import columns_at
 from pyimu.recording.columns import GROUP_OF, XYZ, own_name
 from pyimu.recording.counter import Unwrapped
@@ -32,7 +33,7 @@ from pyimu.recording.guess.references import add_angles, add_place, add_referenc
 from pyimu.recording.naming.endings import fits
 from pyimu.recording.naming.name import Name, named, thermometer
 from pyimu.recording.naming.references import angles, spots
-from pyimu.recording.naming.triads import surest, triads
+from pyimu.recording.naming.triads import Triad, of_one, of_sensor, sensors, triads
 from pyimu.recording.optical import question
 from pyimu.units import FREEZING, same_dimension
 
@@ -77,11 +78,21 @@ def _seconds(found: Proposal, numbers: Numbers) -> np.ndarray | None:
     return values.astype(float) * STATED[own.unit] * (own.value or 1.0)
 
 
-def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = None) -> Proposal:
+WAYS = "taken for forward, left and up: where one counts otherwise, its column is a [count] of -1"
+"""Of accelerations that are called inline, lateral and vertical."""
+
+
+def proposed(
+    reader: Reader,
+    rate: float | None = None,
+    beside: Beside | None = None,
+    sensor: str = "",
+) -> Proposal:
     """A map for the log in ``reader``, of which ``rate`` [Hz] is known if it has no times.
 
-    The forces of another file, ``beside``, tell the gyro's unit where it has none of its own.
-    Raises UserError where its numbers cannot be read.
+    The forces of another file, ``beside``, tell the gyro's unit where it has none of its own. Of a
+    table with the vectors of several sensors those of the ``sensor`` with this name are taken, else
+    of the first. Raises UserError where its numbers cannot be read, or no sensor has this name.
     """
     found = Proposal(reader.path, tuple(reader.header), topic=reader.word)
     if reader.word and not reader.words:
@@ -89,7 +100,7 @@ def proposed(reader: Reader, rate: float | None = None, beside: Beside | None = 
     numbers = Numbers(reader)
     period = add_time(found, reader, numbers, rate)
     vectors = triads(reader.header, reader.path.name)
-    picked = {g: _surest(found, vectors, g) for g in ("accel", "gyro", "mag")}
+    picked = _picked(found, vectors, sensor)
     attitudes = attitudes_in(reader, numbers)
     place: dict[str, int] = {}
     fixes = received(reader, numbers)
@@ -139,15 +150,30 @@ def _by_numbers(
         add_increments(found, reader, numbers, period, away)
 
 
-def _surest(found: Proposal, vectors: list, group: str) -> Picked:
-    """The surest vector of a group by names; what else could be meant goes into the notes."""
-    best, others = surest(vectors, group)
-    if best is None:
-        return None
-    for other in others:
-        cells = ", ".join(name.cell for name in other.names)
-        found.notes.append(f"{cells} may be the {group}, too")
-    return list(zip(best.positions, best.names, strict=True))
+def _picked(found: Proposal, vectors: list[Triad], sensor: str) -> dict[str, Picked]:
+    """The surest vector of each group by names; what else could be meant goes into the notes."""
+    several = sensors(vectors)
+    if sensor:
+        vectors = of_sensor(vectors, sensor)
+        if not vectors:
+            there = f": there are {', '.join(several)}" if several else ", or of several"
+            raise UserError(f"{found.path}: no vectors of a sensor {sensor!r}{there}")
+    picked: dict[str, Picked] = {}
+    for group, (best, others) in of_one(vectors, ("gyro", "accel", "mag")).items():
+        for other in others:
+            cells = ", ".join(name.cell for name in other.names)
+            found.notes.append(f"{cells} may be the {group}, too")
+        picked[group] = None if best is None else list(zip(best.positions, best.names, strict=True))
+        if best is not None and best.is_of_vehicle:
+            found.notes.append(f"{', '.join(name.cell for name in best.names)} are {WAYS}")
+        if best is not None and group == "gyro" and len(several) > 1 and not sensor:
+            own = " ".join(best.sensor)
+            called = own or f"that of {best.names[0].cell}"
+            rest = " or ".join(f"--sensor {name!r}" for name in several if name not in (own, ""))
+            found.notes.append(
+                f"of several sensors {called} is read; pyimu inspect {rest} takes another"
+            )
+    return {group: picked[group] for group in ("accel", "gyro", "mag")}
 
 
 def _vector(

@@ -62,7 +62,7 @@ def in_words(words: Sequence[str], sure_behind: set[str]) -> tuple[list[str], st
         head, tail = list(words[:-count]), list(words[-count:])
         if not head or len(tail) < count:
             continue
-        unit = _of_words(tail)
+        unit = None if tail == ["1"] else _of_words(tail)  # ax1 is that of the first sensor
         behind = head[-1] in sure_behind or GLUED.fullmatch(head[-1]) is not None
         if unit and (behind or len(tail[-1]) > 2):
             return head, unit

@@ -24,6 +24,7 @@ from pyimu.recording.naming.words import (
     TICKS,
     TIMES,
     UNITS_ALONE,
+    UNITS_OF_SEVERAL,
     WEAK,
 )
 from pyimu.recording.spelling import unit_of
@@ -78,7 +79,14 @@ class Name:
             return 2
         if group in PAIRS and all(words & some for some in PAIRS[group]):
             return 2
-        return int(bool(self.words) and self.words[0] in WEAK[group] and len(self.words) < 4)
+        own = _without_sensor(self.words)
+        return int(bool(own) and own[0] in WEAK[group] and len(own) < 4)
+
+
+def _without_sensor(words: tuple[str, ...]) -> tuple[str, ...]:
+    """The words behind those that say which of several sensors it is."""
+    of_one = (k for k, w in enumerate(words) if w not in UNITS_OF_SEVERAL and not w.isdigit())
+    return words[next(of_one, 0) :]
 
 
 def _same(one: Unit, other: Unit) -> bool:
@@ -141,6 +149,15 @@ def _unit(said: str, text: str) -> str | None:
     return {"C": "degC", "F": "degF"}.get(said) if found is None else found
 
 
+def _ends_in_axis(words: list[str]) -> bool:
+    """Whether a number behind the words is a sensor's, as there is an axis before it."""
+    if words[-1] in ("w", "x", "y", "z"):
+        return len(words) > 1
+    rest = Name("", tuple(words[1:]))
+    first = words[0] in ("x", "y", "z") and any(rest.of(group) > 1 for group in STRONG)
+    return first or GLUED.fullmatch(words[-1]) is not None
+
+
 def _axis(words: list[str]) -> tuple[str, list[str]]:
     """The axis, and the words without it.
 
@@ -149,7 +166,7 @@ def _axis(words: list[str]) -> tuple[str, list[str]]:
     words = [word for word in words if word not in SAID_OF_AXES] if len(words) > 1 else words
     if len(words) > 1 and words[-1] in BEHIND:
         words = [words[-1], *words[:-1]]
-    if len(words) > 2 and words[-1].isdigit() and words[-2] in ("w", "x", "y", "z"):
+    if len(words) > 1 and words[-1].isdigit() and _ends_in_axis(words[:-1]):
         words = [words[-1], *words[:-1]]
     for at in (len(words) - 1, 0):
         if words and 0 <= at < len(words) and words[at] in ("w", "x", "y", "z"):

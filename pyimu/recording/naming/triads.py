@@ -8,11 +8,13 @@ from dataclasses import dataclass, replace
 from pyimu.recording.naming.endings import fits
 from pyimu.recording.naming.name import WORD, Name, named
 from pyimu.recording.naming.words import (
+    ALONG,
     DERIVED,
     ELSE,
     HALVES,
     LINEAR,
     NO_SAMPLES,
+    OF_VEHICLE,
     ONE_VECTOR,
     PAIRS,
     RATED,
@@ -21,7 +23,19 @@ from pyimu.recording.naming.words import (
     STRONG,
     TOLD_BY_UNIT,
     TRUTHS,
+    WEAK,
 )
+
+OF_VECTORS = {
+    *PAIRS["gyro"][0],
+    *PAIRS["gyro"][1],
+    *RAW,
+    *DERIVED,
+    *TRUTHS,
+    *LINEAR,
+    OF_VEHICLE,
+} | {word for words in (*STRONG.values(), *WEAK.values()) for word in words}
+"""Words in the names of vectors that say nothing of which of several sensors they are."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +54,16 @@ class Triad:
         unit = units.pop() if len(units) == 1 else None
         return unit if unit is not None and fits(unit, self.group) else None
 
+    @property
+    def sensor(self) -> tuple[str, ...]:
+        """The words for which of several sensors it is of: ``imu 1``, ``left``."""
+        return tuple(word for word in self.names[0].words if word not in OF_VECTORS)
+
+    @property
+    def is_of_vehicle(self) -> bool:
+        """Whether its axes are called as those of a vehicle, whose signs nobody says."""
+        return OF_VEHICLE in self.names[0].words
+
 
 def triads(header: Sequence[str], file: str = "") -> list[Triad]:
     """The vectors in a header, those that are the surest first.
@@ -54,7 +78,7 @@ def triads(header: Sequence[str], file: str = "") -> list[Triad]:
     if [name.cell for name in names] in (ONE_VECTOR, ONE_VECTOR[:3]):
         pairs = zip(names[-3:], "xyz", strict=True)
         names = [*names[:-3], *(replace(n, words=hint, axis=a) for n, a in pairs)]
-    names = _with_turns(_with_rolls(_with_elements(names)))
+    names = _with_ways(_with_turns(_with_rolls(_with_elements(names))))
     for position, name in enumerate(names):
         if name.axis:
             stems.setdefault(name.words, {}).setdefault(name.axis, position)
@@ -142,6 +166,21 @@ def _with_turns(names: Sequence[Name]) -> list[Name]:
     return found
 
 
+def _with_ways(names: Sequence[Name]) -> list[Name]:
+    """The names; of an inline, a lateral and a vertical acceleration these are the axes."""
+    found, stems = list(names), dict[tuple[str, ...], dict[str, int]]()
+    for position, name in enumerate(names):
+        way = next((word for word in name.words if word in ALONG), None)
+        rest = tuple(word for word in name.words if word != way)
+        if way is not None and not name.axis and (set(rest) & STRONG["accel"] or rest == ("g",)):
+            stems.setdefault(rest, {}).setdefault(ALONG[way], position)
+    for rest, axes in stems.items():
+        for axis, position in axes.items() if len(axes) == 3 else ():
+            words = ("accel", OF_VEHICLE, *(word for word in rest if word != "g"))
+            found[position] = replace(names[position], words=words, axis=axis)
+    return found
+
+
 def _is_none(words: Sequence[str], known: Collection[str]) -> bool:
     """Whether words say that a vector is no raw sample: one of those ``known``, or the last."""
     return bool(set(words) & set(known) or set(words[-1:]) & HALVES)
@@ -175,3 +214,30 @@ def surest(found: Iterable[Triad], group: str) -> tuple[Triad | None, list[Triad
     whole = [triad for triad in own if not set(triad.names[0].words) & LINEAR]
     own = whole if whole and group == "accel" else own
     return (own[0], own[1:]) if own else (None, [])
+
+
+def of_sensor(found: Iterable[Triad], sensor: str) -> list[Triad]:
+    """The vectors of the sensor that is called so, among those of several."""
+    wanted = {word.casefold() for word in WORD.findall(sensor)}
+    return [triad for triad in found if wanted and wanted <= set(triad.sensor)]
+
+
+def of_one(found: Sequence[Triad], groups: Sequence[str]) -> dict[str, tuple[Triad | None, list]]:
+    """The surest vector of each of the ``groups``, and the others that may be it, all of one sensor
+    where the names tell several: that of the first group there is one of.
+    """
+    sure = {group: surest(found, group) for group in groups}
+    first = next((best for best, _ in sure.values() if best is not None), None)
+    for group, (best, rivals) in sure.items():
+        if best is not None and first is not None and best.sensor != first.sensor:
+            same = next((t for t in rivals if t.sensor == first.sensor), best)
+            sure[group] = same, [t for t in (best, *rivals) if t is not same]
+    return sure
+
+
+def sensors(found: Iterable[Triad]) -> list[str]:
+    """The names of the sensors of which a table has vectors, where the names tell several."""
+    own = [triad for triad in found if triad.group in ("gyro", "accel") and triad.score > 0]
+    names = list(dict.fromkeys(" ".join(triad.sensor) for triad in own))
+    whole = [n for n in names if len({t.group for t in own if " ".join(t.sensor) == n}) == 2]
+    return whole if len(whole) > 1 else []

@@ -64,6 +64,36 @@ LETTERS = {"c": "degC", "k": "K", "f": "degF"}
 INERTIAL = {"imu", "mpu", "mems", "inertial", "imutemp"}
 """Words for the unit whose thermometer it is, beside those of its sensors."""
 
+PLACES = {
+    "left",
+    "right",
+    "front",
+    "rear",
+    "upper",
+    "lower",
+    "head",
+    "chest",
+    "waist",
+    "pelvis",
+} | {
+    *("hip", "thigh", "shank", "knee", "ankle", "foot", "toe", "heel", "shoulder", "arm"),
+    *("forearm", "elbow", "wrist", "hand", "trunk", "torso", "sternum", "back", "lumbar"),
+    *("pocket", "belt", "phone", "watch", "primary", "secondary"),
+}
+"""Words for where a sensor is, of several in one table."""
+
+UNITS_OF_SEVERAL = INERTIAL | PLACES | {"sensor", "unit", "node", "device", "board"}
+"""Words that may stand, with a number or without, before the letter for a vector: ``imu1_gx``."""
+
+ALONG = {"inline": "x", "longitudinal": "x", "long": "x", "lon": "x"} | {
+    **dict.fromkeys(("lateral", "lat"), "y"),
+    **dict.fromkeys(("vertical", "vert"), "z"),
+}
+"""Words for the axes before one for an acceleration, as vehicles have them: ``LateralAcc``."""
+
+OF_VEHICLE = "along"
+"""The word for a vector that is called so: which way each axis counts nobody says."""
+
 TRUTHS = {"ref", "reference", "vicon", "opt", "optical", "omc", "mocap", "truth", "groundtruth"} | {
     "gt",
     "optitrack",
