@@ -19,7 +19,7 @@ from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.proposal import ZEROS, forces, proposed
 from pyimu.recording.guess.writing import MapGiven, text_of
-from pyimu.recording.known import STATED, is_own, recognised
+from pyimu.recording.known import STATED, Known, is_own, recognised
 from pyimu.recording.log import Log
 from pyimu.recording.made import with_made_columns
 from pyimu.recording.naming.name import named
@@ -59,7 +59,7 @@ def inspect(
     say("looking at the columns")
     readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
     readers, foreign = _with_made_columns(readers, foreign)
-    known = None if foreign is not None or sensor else recognised(readers[0])
+    known = None if foreign is not None or sensor else _recognised(readers[0])
     if foreign is None and known is None and len(readers) == 1:
         readers += [open_reader(given[0], {"imu": topic}) for topic in readers[0].words]
     maps = [
@@ -154,11 +154,23 @@ def _kind(reader: Reader, known: bool, mapped: bool) -> str:
     return "own" if is_own(reader.header) else "guessed"
 
 
+def _recognised(
+    reader: Reader, rate: float | None = None, given: ForeignMap | None = None
+) -> Known | None:
+    """What is known of a log, None also of counts whose size neither it nor a ``given`` map says:
+    their numbers may.
+    """
+    known = recognised(reader, rate=rate)
+    counts = known is not None and any("[count]" in c for c in known[1].columns.values())
+    sized = known is not None and bool(known[1].scale or (given and given.scale))
+    return None if counts and not sized else known
+
+
 def _own_map(reader: Reader, foreign: ForeignMap | None, index: int) -> ForeignMap | None:
     """The columns that are declared for the file of number ``index``, None where none are."""
     if foreign is not None and foreign.columns:
         return foreign if index == 0 else (dict(foreign.files).get(reader.path.name))
-    known = recognised(reader, rate=None if foreign is None else foreign.rate)
+    known = _recognised(reader, None if foreign is None else foreign.rate, foreign)
     if known is not None:
         return known[1]
     if is_own(reader.header):

@@ -24,7 +24,7 @@ from pyimu.recording.naming.triads import Triad, others, surest, triads
 from pyimu.recording.naming.words import TRUTHS
 from pyimu.recording.optical import optical_body
 from pyimu.recording.programs import PROGRAMS
-from pyimu.recording.surveys import SURVEYS
+from pyimu.recording.surveys import SURVEYS, fog_truth
 from pyimu.recording.vectors import triad_map, unnamed
 from pyimu.recording.xsens import xsens
 from pyimu.units import FREEZING, same_dimension
@@ -265,7 +265,10 @@ FORMATS = (
     *PROGRAMS,
 )
 
-TRUTHS_OF = (("KITTI's oxts, by its description", _oxts_truth),)
+TRUTHS_OF = (
+    ("KITTI's oxts, by its description", _oxts_truth),
+    ("KAIST's fibre-optic gyro, by its description", fog_truth),
+)
 """Logs that hold a reference for other sensors, too."""
 
 
@@ -362,4 +365,6 @@ def merged(
     scale = {**known.scale, **given.scale}
     whole = replace(given, columns=known.columns, scale=scale, files=files, notes=known.notes)
     body = known.body if given.body is None else given.body
-    return replace(whole, body=body, world=known.world if given.world == "enu" else given.world)
+    rate = known.rate if given.rate is None else given.rate
+    world = known.world if given.world == "enu" else given.world
+    return replace(whole, body=body, world=world, rate=rate)

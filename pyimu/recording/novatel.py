@@ -62,7 +62,7 @@ def novatel(reader: Reader) -> ForeignMap | None:
 
     The counts of a unit that is not known have no size: who reads it says it.
     """
-    if reader.header[:1] != [TIME] or not set(VECTORS) <= set(reader.header):
+    if not is_novatel(reader):
         return None
     columns = {TIME: "time [s]"} | triad_map(VECTORS[:3], "accel", "count")
     columns |= triad_map(VECTORS[3:], "gyro", "count")
@@ -72,6 +72,11 @@ def novatel(reader: Reader) -> ForeignMap | None:
     units = {"gyro": (sizes[0], "rad/s"), "accel": (sizes[1], "m/s^2")}
     scale = {f"{g}_{a}": Scale(size, parse(u)) for g, (size, u) in units.items() for a in "xyz"}
     return ForeignMap(columns=columns, scale=scale)
+
+
+def is_novatel(reader: Reader) -> bool:
+    """Whether a log is one of a receiver's raw samples."""
+    return reader.header[:1] == [TIME] and set(VECTORS) <= set(reader.header)
 
 
 def _sizes(reader: Reader) -> tuple[float, float] | None:

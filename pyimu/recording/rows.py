@@ -154,7 +154,8 @@ def _timed(reader: Reader, foreign: ForeignMap, names: list[str]) -> Reader:
                 f"{foreign.path}: key sample_rate is for a log without times, but {reader.path} "
                 "has a column that is its time: leave one of the two out"
             )
-        return TimedReader(reader, foreign.rate, "the column map")
+        by = "the log's layout" if foreign.path is None else "the column map"
+        return TimedReader(reader, foreign.rate, by)
     if there or reader.rate is None:
         return reader
     return TimedReader(reader, reader.rate, "what the file says")

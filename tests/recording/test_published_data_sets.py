@@ -4,6 +4,7 @@ gyro or a time and is none, refused, or left to the reader.
 
 import numpy as np
 import pytest
+from log_tables import receiver
 from scipy.io import savemat
 from scipy.spatial.transform import Rotation
 from turned_logs import G, H, N, agrees, by_its_map, rows, turned, written
@@ -210,3 +211,59 @@ def test_a_phone_s_accelerations_without_gravity_are_no_force(log, tmp_path):
     assert found.accel is None
     kinds = {f.kind for f in found.findings}
     assert "no_gravity" in kinds and "vector_left_out" not in kinds
+
+
+# Navigation
+
+
+def test_kaists_fibre_optic_gyro_is_a_gyro_or_a_reference(log, tmp_path):
+    """Turns from row to row, in rad."""
+    time, gyro, _ = log
+    stamps = [f"{1544590798700000000 + round(1e9 * t)}" for t in time]
+    path = written(tmp_path / "fog.csv", rows(stamps, gyro * H))
+    np.testing.assert_allclose(read_recording(path).gyro, gyro, rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(read_reference(path).ref_rate, gyro, rtol=1e-5, atol=1e-6)
+
+
+def test_nclts_fibre_optic_gyro_is_a_heading(tmp_path):
+    """Clockwise from north, as its unit's axes have it."""
+    time = H * np.arange(N)
+    stamps = [f"{1326030975726043 + round(1e6 * t)}" for t in time]
+    path = written(tmp_path / "kvh.csv", rows(stamps, 0.1 * time))
+    found = read_reference(path).ref_heading
+    np.testing.assert_allclose(found, np.pi / 2 - 0.1 * time, rtol=0, atol=1e-8)
+
+
+def test_mid_airs_flights_at_their_rate(log, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    time, gyro, force = log
+    attitude = Rotation.from_euler("ZYX", _attitude(time)[:, ::-1])
+    q = attitude.as_quat(scalar_first=True)
+    with h5py.File(tmp_path / "sensor_records.hdf5", "w") as file:
+        for flight in range(2):
+            group = file.create_group(f"trajectory_{flight:04d}")
+            group["imu/gyroscope"], group["imu/accelerometer"] = gyro * FRD, force * FRD
+            group["groundtruth/attitude"], group["groundtruth/velocity"] = q, gyro
+            group["groundtruth/position"], group["gps/position"] = force, force[::100]
+    found = read_recording(tmp_path / "sensor_records.hdf5")
+    agrees(found, log)
+    assert found.sample_rate == pytest.approx(100.0)
+    np.testing.assert_allclose(found.ref_up, -force[:, 2], rtol=0, atol=1e-9)
+    up = Rotation.from_quat(found.ref_q, scalar_first=True).inv().apply([0.0, 0.0, 1.0])
+    np.testing.assert_allclose(up, -attitude.inv().apply([0, 0, 1]) * FRD, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("told", [True, False])
+def test_counts_of_a_receivers_unit_are_sized_by_gravity(told, log, tmp_path):
+    """RAWIMUSA says no type: where no unit's counts make gravity 9.8 all of them are offered."""
+    size = 1.0 if told else 7.0
+    rad, metres = 100 * 2.0**-33, 100 * 0.3048 * 2.0**-27
+    receiver(tmp_path / "raw.asc", log, 11, rad, size * metres, typed=False)
+    found = inspect(tmp_path / "raw.asc")
+    assert not found.readable
+    if told:
+        agrees(by_its_map(tmp_path / "raw.asc", tmp_path), log, 1e-7, 1e-6)
+    else:
+        assert found.column_map.count("# accel = {value") == 6
+    with pytest.raises(UserError, match="nobody said how large one is"):
+        read_recording(tmp_path / "raw.asc")

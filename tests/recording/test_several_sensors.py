@@ -97,7 +97,8 @@ AIM = """"Format","AiM CSV File"
 {names}
 "s","km/h","g","g","g","g","g","deg/s","deg/s","deg/s","C"
 """
-AIM_NAMES = "Time,GPS Speed,GPS LatAcc,GPS LonAcc,InlineAcc,LateralAcc,VerticalAcc," + (
+AIM_NAMES = (
+    "Time,GPS Speed,GPS LatAcc,GPS LonAcc,InlineAcc,LateralAcc,VerticalAcc,"
     "RollRate,PitchRate,YawRate,LoggerTemp"
 )
 

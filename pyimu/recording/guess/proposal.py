@@ -28,6 +28,7 @@ from pyimu.recording.guess.numbers import (
     rate_unit,
     warmth_unit,
 )
+from pyimu.recording.guess.receiver_counts import add_receiver_counts
 from pyimu.recording.guess.receivers import add_received, received
 from pyimu.recording.guess.references import add_angles, add_place, add_reference, attitudes_in
 from pyimu.recording.naming.endings import fits
@@ -102,9 +103,11 @@ def proposed(
     vectors = triads(reader.header, reader.path.name)
     picked = _picked(found, vectors, sensor)
     attitudes = attitudes_in(reader, numbers)
+    add_receiver_counts(found, reader, numbers, period)
+    counted = bool({"gyro", "accel"} & set(found.groups))
     place: dict[str, int] = {}
     fixes = received(reader, numbers)
-    if picked["accel"] is None and picked["gyro"] is None:
+    if picked["accel"] is None and picked["gyro"] is None and not counted:
         place = spots(reader.header) if len(attitudes) == 1 else {}
         away = {k for at in attitudes for k in at.values()} | set(angles(reader.header).values())
         away |= set(fixes.values())
