@@ -6,10 +6,10 @@ import numpy as np
 
 from pyimu.recording.columns import XYZ
 from pyimu.recording.formats.novatel import VECTORS
+from pyimu.recording.formats.novatel_counts import INCREMENTS, RATES, is_novatel
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.first_rows import Numbers
 from pyimu.recording.guess.guessed import Guess, Proposal
-from pyimu.recording.novatel import INCREMENTS, RATES, is_novatel
 from pyimu.units import STANDARD_GRAVITY
 
 NEAR = 0.1
