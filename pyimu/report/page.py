@@ -78,6 +78,7 @@ def templates(package: str) -> Environment:
         lstrip_blocks=True,
     )
     environment.globals |= {"words_on": words_on, "missing": MISSING}
+    environment.filters["command"] = command
     return environment
 
 
@@ -91,6 +92,19 @@ def words(text: Markup) -> Markup:
     return Markup('<span class="words">{}</span>').format(text)
 
 
+OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
+
+
+def command(text: str) -> Markup:
+    """A command as it was typed, whose options do not break behind their hyphens."""
+    marks = ((at.start(), at.end()) for at in OPTION.finditer(text))
+    said, before = Markup(""), 0
+    for first, stop in marks:
+        option = Markup('<span class="option">{}</span>').format(text[first:stop])
+        said, before = said + escape(text[before:first]) + option, stop
+    return said + escape(text[before:])
+
+
 def file_name(name: str) -> Markup:
     """A cell with the name of a file, which may break behind underscores."""
     return Markup('<span class="file">{}</span>').format(_breakable(name))
@@ -98,7 +112,7 @@ def file_name(name: str) -> Markup:
 
 def _breakable(text: str) -> Markup:
     """Text that may break behind underscores, as a name of three words must on a phone."""
-    return Markup("<wbr>").join(re.findall(r"[^_]+_*|_+", text))
+    return Markup("<wbr>").join(map(command, re.findall(r"[^_]+_*|_+", text)))
 
 
 def equation(latex: str) -> Markup:

@@ -8,7 +8,7 @@ from pyimu.errors import Finding
 from pyimu.ins.measured import CONTRADICTED
 from pyimu.report.findings import grouped, in_line
 from pyimu.report.meaning import MEANING
-from pyimu.report.page import quality_table
+from pyimu.report.page import command, quality_table
 
 
 def in_the_package() -> tuple[set[str], set[str]]:
@@ -66,3 +66,9 @@ def test_columns_without_a_meaning_are_one_line_that_names_them():
         "gaps: 2",
         "unused column of cov0: 1 (recording b, header cov0 [])",
     ]
+
+
+def test_an_option_of_a_command_does_not_break_behind_its_hyphen():
+    said = command('pyimu close "a--b.csv" --holdout <x> --reference-columns m.toml')
+    assert '<span class="option">--holdout</span> &lt;x&gt;' in said
+    assert said.count("<span") == 2 and "--reference-columns</span>" in said
