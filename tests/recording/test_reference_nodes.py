@@ -48,6 +48,23 @@ def test_the_samples_behind_the_rows_are_found(rows_hz, jitter, ratio):
     assert np.median(off) < 1e-6 and off.max() < 0.05 * NOISE
 
 
+@pytest.mark.parametrize("hz", [10.0, 30.0, 60.0])
+@pytest.mark.parametrize("sequence", ["ZYX", "XYZ"])
+def test_the_samples_whose_angles_were_joined_along_lines(sequence, hz):
+    """As spreadsheets and programs do that interpolate roll, pitch and yaw by themselves."""
+    rng, time = np.random.default_rng(round(hz)), np.arange(0.0, SECONDS, 0.01)
+    at = np.arange(-1.0, SECONDS + 1.0, 1 / hz) + 0.003
+    angles = np.unwrap(attitude(rng, at).as_euler(sequence), axis=0)
+    rows = np.column_stack([np.interp(time, at, column) for column in angles.T])
+    found = own_samples(recording(time, Rotation.from_euler(sequence, rows)))
+    nearest = np.searchsorted(0.5 * (at[1:] + at[:-1]), found.time)
+    assert len(found.time) > 0.9 * SECONDS * hz
+    assert_allclose(found.time, at[nearest], atol=1e-5)
+    own = Rotation.from_quat(found.ref_q, scalar_first=True)
+    off = (own.inv() * Rotation.from_euler(sequence, angles[nearest])).magnitude()
+    assert np.median(off) < 1e-6 and off.max() < 0.05 * NOISE
+
+
 @pytest.mark.parametrize("noise", [0.0, NOISE])
 def test_rows_that_are_no_interpolation_stay(noise):
     rng, time = np.random.default_rng(7), np.arange(0.0, SECONDS, 0.01)

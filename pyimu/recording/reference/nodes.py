@@ -1,5 +1,5 @@
-"""The samples that an attitude was interpolated from along shortest arcs, or a position along
-lines.
+"""The samples that an attitude was interpolated from along shortest arcs, or its angles along
+lines, as a position is.
 
 Between two of them its rate is constant, and jumps at each: the interpolation, not the motion. The
 samples lie between the rows: by how much of either arc's rate the step that holds one has.
@@ -7,11 +7,11 @@ samples lie between the rows: by how much of either arc's rate the step that hol
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from scipy.fft import next_fast_len, rfft
-from scipy.spatial.transform import Rotation
+from scipy.spatial.transform import Rotation, Slerp
 
 from pyimu.recording.recording import Recording, at_own_times
 from pyimu.recording.reference import close_nodes, spline_nodes
@@ -45,25 +45,98 @@ CLOSE = 0.05
 """A sample of the grid so near to a row, in rows, counts on either side of it."""
 
 
+SEQUENCES = ("ZYX", "XYZ")
+"""In which the angles may turn that were joined along lines."""
+
+NOTHING = 0.05
+"""Share of what arcs leave of the rows, of which lines leave less where angles were joined so."""
+
+Met = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Times (k,) of samples, the rows (k,) before them, and how much further (k, d) they are."""
+
+Meet = Callable[[np.ndarray, np.ndarray], Met | None]
+"""What finds these among rows at times (n,) with steps (n - 1, d) between them."""
+
+Own = tuple[np.ndarray, Rotation]
+"""Times (k,) and attitudes of samples."""
+
+
 def own_samples(source: Recording) -> Recording:
     """The reference with the samples of ``ref_q`` that its rows were interpolated from, where they
-    were along shortest arcs, or every second to tenth row, joined by a spline; else as it is.
+    were along shortest arcs, roll, pitch and yaw along lines, or every second to tenth row, joined
+    by a spline; else as it is.
     """
     known = np.flatnonzero(np.isfinite(source.ref_q).all(axis=1))
     if len(known) < 4 * LEAST:
         return source
     time = source.time[known]
     attitude = Rotation.from_quat(source.ref_q[known], scalar_first=True)
-    splined = spline_nodes.every(time, attitude) if _is_even(time) else None
+    steps = (attitude[:-1].inv() * attitude[1:]).as_rotvec()
+    if _is_held(steps):
+        return source
+    far = _joined(_met_far, time, steps, attitude)
+    splined = spline_nodes.every(time, attitude) if far is None and _is_even(time) else None
     if splined is not None:
         rows = known[splined[0] :: splined[1]]
         return at_own_times(source, source.time[rows], ref_q=source.ref_q[rows])
-    found = _met(time, (attitude[:-1].inv() * attitude[1:]).as_rotvec())
+    found = far or _joined(close_nodes.met, time, steps, attitude)
     if found is None:
         return source
-    at, row, further = found
-    nodes = (attitude[row] * Rotation.from_rotvec(further)).as_quat(scalar_first=True)
-    return at_own_times(source, at, ref_q=nodes)
+    at, own = found
+    return at_own_times(source, at, ref_q=own.as_quat(scalar_first=True))
+
+
+def _joined(meet: Meet, time: np.ndarray, steps: np.ndarray, attitude: Rotation) -> Own | None:
+    """The samples that are met along arcs; those of angles where lines between them leave hardly
+    anything of what arcs do.
+    """
+    met, best, least = meet(time, steps), None, np.inf
+    if met is not None:
+        best = met[0], attitude[met[1]] * Rotation.from_rotvec(met[2])
+        least = NOTHING * _left(time, attitude, best[0], Slerp(*best))
+    for sequence in SEQUENCES:
+        own, left = _along_lines(meet, time, attitude, sequence)
+        if own is None or left >= least:
+            continue
+        if left < NOTHING * _left(time, attitude, own[0], Slerp(*own)):
+            best, least = own, left
+    return best
+
+
+def _along_lines(
+    meet: Meet,
+    time: np.ndarray,
+    attitude: Rotation,
+    sequence: str,
+) -> tuple[Own | None, float]:
+    """The samples between which the angles of a ``sequence`` lie on lines, and what lines between
+    them leave of the rows.
+    """
+    angles = np.unwrap(attitude.as_euler(sequence), axis=0)
+    met = meet(time, np.diff(angles, axis=0))
+    if met is None:
+        return None, np.inf
+    at, row, further = met
+    nodes = angles[row] + further
+
+    def lines(t: np.ndarray) -> Rotation:
+        columns = [np.interp(t, at, column) for column in nodes.T]
+        return Rotation.from_euler(sequence, np.column_stack(columns))
+
+    return (at, lines(at)), _left(time, attitude, at, lines)
+
+
+def _along_arcs(met: Met, attitude: Rotation) -> Own:
+    at, row, further = met
+    return at, attitude[row] * Rotation.from_rotvec(further)
+
+
+def _left(
+    time: np.ndarray, attitude: Rotation, at: np.ndarray, curve: Callable[[np.ndarray], Rotation]
+) -> float:
+    """Median rad of what a curve through the samples ``at`` some times leaves of the rows."""
+    inside = (time >= at[0]) & (time <= at[-1])
+    return float(np.median((curve(time[inside]).inv() * attitude[inside]).magnitude()))
 
 
 def own_places(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -77,19 +150,23 @@ def own_places(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.nda
     return at, values[row] + further
 
 
-def _met(time: np.ndarray, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """The samples behind rows at ``time`` (n,) with ``steps`` (n - 1, d) between them: their times
-    (k,), the rows (k,) before them, and how much further (k, d) they are; None where there are
-    none.
+def _met(time: np.ndarray, steps: np.ndarray) -> Met | None:
+    """The samples behind rows at ``time`` (n,) with ``steps`` (n - 1, d) between them; None where
+    there are none.
     """
     if _is_held(steps):
         return None
+    return _met_far(time, steps) or close_nodes.met(time, steps)
+
+
+def _met_far(time: np.ndarray, steps: np.ndarray) -> Met | None:
+    """The same of samples between which there are two rows at least."""
     step = np.diff(time)
     rate = steps / step[:, None]
     rate[step > 1.5 * np.median(step)] = np.nan
     grid = _grid(time, rate)
     if grid is None:
-        return close_nodes.met(time, steps)
+        return None
     at, row = _placed(time, grid)
     # The step before that which holds a sample belongs to the arc that ends at it.
     good = np.isfinite(rate[row - 1]).all(axis=1) & np.isfinite(rate[row]).all(axis=1)
