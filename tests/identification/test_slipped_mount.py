@@ -1,5 +1,7 @@
 """A sensor, or markers, that turned in their mount once: the reference's, and no effect."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import traps
@@ -46,3 +48,9 @@ def test_a_step_of_the_bias_and_a_gain_that_changes_are_the_sensors():
     step = np.where(late[:, None], np.radians([0.3, -0.5, 0.4]), 0.0)
     for changed in (gyro + step, gyro * np.where(late[:, None], [1.03, 0.98, 1.02], 1.0)):
         assert "mount_slipped" not in findings(log, changed)[0]
+
+
+def test_a_mirrored_gyro_has_not_slipped():
+    """Its cubic scale factor changes its gain a little as it moves: it had slipped by 176 deg."""
+    case = traps.case("axes_exchanged_in_one", 30010, 0)
+    assert "mount_slipped" not in findings(replace(case, logs=case.logs[1:]))[0]

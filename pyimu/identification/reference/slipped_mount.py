@@ -91,7 +91,10 @@ def _slip(trial: Trial) -> _Slip | None:
     x, y = (in_band(band, v)[seen] for v in (trial.u[:, OWN[trial.kind]], trial.y))
     if len(x) < 3 * FEWEST:
         return None
-    q, _ = np.linalg.qr(np.column_stack([np.ones(len(x)), x]))
+    known = np.column_stack([np.ones(len(x)), x])
+    if np.linalg.det(np.linalg.lstsq(known, y)[0][1:]) <= 0.0:
+        return None  # Mirrored: in no mounting do the two belong together.
+    q, _ = np.linalg.qr(known)
     left = y - q @ (q.T @ y)
     turns = np.stack([np.cross(x, e) for e in np.eye(3)], axis=2)
     gains = np.einsum("mi,jk->mjik", x, np.eye(3)).reshape(len(x), 3, 9)

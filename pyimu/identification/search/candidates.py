@@ -207,7 +207,7 @@ def _linear_groups(normal: Normal, sensor: Sensor, e: Effect, whole: bool) -> li
     for key in present:
         rows.setdefault(key.index[0] if key.index else -1, []).append(key)
     return [
-        Group(e.name, tuple(keys), tuple(_choice(normal, some) for some in _subsets(keys, whole)))
+        Group(e.name, tuple(keys), tuple(_choice(normal, some) for some in subsets(keys, whole)))
         for keys in rows.values()
     ]
 
@@ -216,7 +216,7 @@ def _choice(normal: Normal, keys: Sequence[Key]) -> Choice:
     return Choice(tuple(normal.position[k] for k in keys), None, tuple(keys))
 
 
-def _subsets(keys: Sequence[Key], whole: bool) -> list[tuple[Key, ...]]:
+def subsets(keys: Sequence[Key], whole: bool = False) -> list[tuple[Key, ...]]:
     """All of them together first, then all fewer ones; of a great many, those of one and two."""
     fewer = range(len(keys) - 1, 0, -1) if len(keys) <= MOST_ENTRIES else (2, 1)
     sizes = [] if whole else fewer

@@ -16,6 +16,7 @@ from pyimu.identification.fit.keys import Key
 from pyimu.identification.fit.maximum_likelihood import (
     advantage,
     advantage_by_its_noise,
+    fit,
     fit_and_normal,
     wander_is_declared,
 )
@@ -306,6 +307,11 @@ def promise(c: Screened, start: Fit, current: Fit) -> float:
     fitted anew to what it leaves, some steps from where it ``start``s.
     """
     return advantage_by_its_noise(_with(start, c), current)
+
+
+def beside(current: Fit, c: Screened) -> Fit:
+    """A model with a candidate fitted in full, whatever it explains."""
+    return fit(_with(current, c).with_noise())
 
 
 def _with(current: Fit, c: Screened) -> Fit:

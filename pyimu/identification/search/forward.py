@@ -31,7 +31,7 @@ from pyimu.identification.fit.trial import Doubt, Trial
 from pyimu.identification.search.as_sampled import GATE, ceiling_of, threshold_of
 from pyimu.identification.search.belief import unbelievable
 from pyimu.identification.search.ceiling import has_ceiling, is_ceiling, unbent, without_lost
-from pyimu.identification.search.choice import Refined, Tried, chosen_of
+from pyimu.identification.search.choice import Refined, Tried, beside, chosen_of
 from pyimu.identification.search.confirm import evidence
 from pyimu.identification.search.damped import (
     damped,
@@ -48,7 +48,7 @@ from pyimu.identification.search.left_out import LeftOut
 from pyimu.identification.search.own_kinks import with_own_kinks
 from pyimu.identification.search.own_lag import apart, beside_clocks, lag_beside_clocks, leaves_less
 from pyimu.identification.search.reference_line import without_line
-from pyimu.identification.search.screen import PENALTY, Screened, Screening, keys_of
+from pyimu.identification.search.screen import PENALTY, Screened, Screening, is_slow, keys_of
 from pyimu.identification.search.taken_back import (
     backward,
     by_fewer,
@@ -259,7 +259,7 @@ class _Search:
             return True
         chosen, names = chosen_of(self.tried, options, self.seen.gate)
         if chosen is None:
-            return self._looks_again() or self._lags()
+            return self._looks_again() or self._lags() or self._two_at_once()
         instead = max(self._likelier_than(chosen.gain), 0.0)
         if self._grows(instead, instead):
             return True
@@ -323,8 +323,15 @@ class _Search:
         return True
 
     def _add(self, chosen: Refined, alternatives: tuple[str, ...]) -> None:
+        self.steps.append(self._step(chosen, alternatives))
+        clipped = is_ceiling(chosen.fit.sensor, chosen.screened.effect)
+        if clipped:
+            self.held = [with_limited(chosen.fit.sensor, t) for t in self.held]
+        self._goes_on(self._sharp_again(without_lost(chosen.fit) if clipped else chosen.fit))
+
+    def _step(self, chosen: Refined, alternatives: tuple[str, ...]) -> Step:
         name = chosen.screened.effect
-        step = Step(
+        return Step(
             name,
             keys_of(chosen.screened),
             chosen.gain,
@@ -334,11 +341,41 @@ class _Search:
             name in self.before.sensor.values,
             fitted=self.tried.gains,
         )
-        self.steps.append(step)
-        clipped = is_ceiling(chosen.fit.sensor, name)
-        if clipped:
-            self.held = [with_limited(chosen.fit.sensor, t) for t in self.held]
-        self._goes_on(self._sharp_again(without_lost(chosen.fit) if clipped else chosen.fit))
+
+    def _two_at_once(self) -> bool:
+        """Take two slow effects in that hide each other: beside a walk whose size nobody knows each
+        is a part of what the other leaves, and neither explains enough alone. Beside the other each
+        has to pass the gate and the held-out rows; False where no two do.
+        """
+        some = sorted(self.tried.refined.values(), key=lambda r: -r.gain)
+        for one in some:
+            if one.gain <= 0.0 or not is_slow(CATALOGUE[one.screened.effect]):
+                continue
+            other = self._beside(one.fit)
+            if other is None or not is_slow(CATALOGUE[other[0].screened.effect]):
+                continue
+            alone = beside(self.after, other[0].screened)
+            back = self._beside(alone)
+            if back is None or not is_slow(CATALOGUE[back[0].screened.effect]):
+                continue
+            self.steps.append(self._step(*other))
+            self._add(*back)
+            return True
+        return False
+
+    def _beside(self, after: Fit) -> tuple[Refined, tuple[str, ...]] | None:
+        """The candidate that stands beside a model, by any view, and the names of those that
+        explain as much; None where none does.
+        """
+        tried = Tried(after, self.sensor.values)
+        while tried.views:
+            seen, _ = tried.looked()
+            options = [c for c in seen.above() if c.effect not in self.refused]
+            chosen, names = chosen_of(tried, options, seen.gate)
+            if chosen is not None:
+                chosen, reason = judged(tried, chosen, self.held, seen.gate)
+                return None if reason else (chosen, names)
+        return None
 
     def _sharp_again(self, after: Fit) -> Fit:
         """A model beside the motion as it was, where that is likelier now: what has come in since

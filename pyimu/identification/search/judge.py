@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 
 from pyimu.identification.fit.fit import Fit
+from pyimu.identification.fit.keys import coefficients_of
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.belief import hidden, unbelievable
-from pyimu.identification.search.candidates import Group
+from pyimu.identification.search.candidates import Group, subsets
 from pyimu.identification.search.choice import (
     ALIKE,
     SET_WIDTH,
@@ -56,7 +58,7 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
     if reason := passing(chosen.fit, name):
         return chosen, reason
     if chosen.screened.effect not in old.sensor.values:
-        chosen, reason = _shown(old, chosen, gate)
+        chosen, reason = _shown(old, _within_belief(old, chosen), gate)
         beyond = unbelievable(chosen.fit, keys_of(chosen.screened))
         if beyond:
             tried.denied.append((chosen, "whose size is beyond belief"))
@@ -69,6 +71,34 @@ def judged(tried: Tried, chosen: Refined, held: list[Trial], gate: float) -> tup
         return chosen, _stands_in(tried, chosen, gate)
     tried.denied.append((chosen, "and was refused"))
     return chosen, reason
+
+
+def _within_belief(old: Fit, chosen: Refined) -> Refined:
+    """The chosen candidate by other elements of its axes where some of its own are beyond belief,
+    and others, of a size that a sensor may have, explain as much: columns that are nearly one are
+    told apart by chance, and one that is nearly nothing takes a coefficient for all of them.
+    """
+    seen = chosen.screened
+    beyond = {k for k in keys_of(seen) if unbelievable(chosen.fit, [k])}
+    if not beyond or seen.form is not None or seen.values:
+        return chosen
+    every = coefficients_of(chosen.fit.sensor, seen.effect) - beyond
+    instead = []
+    for group in seen.groups:
+        row = sorted(k for k in every if k.index[:1] == group.keys[0].index[:1])
+        some = [group.keys] if beyond.isdisjoint(group.keys) else subsets(row) if row else [()]
+        instead.append([replace(group, keys=keys) if keys else None for keys in some])
+    found = [
+        refine(old, replace(seen, groups=kept))
+        for groups in product(*instead)
+        if (kept := tuple(g for g in groups if g is not None))
+    ]
+    for other in sorted(found, key=lambda r: -r.gain):
+        if ahead(chosen, other) > SET_WIDTH:
+            break
+        if not unbelievable(other.fit, keys_of(other.screened)):
+            return other
+    return chosen
 
 
 def _shown(old: Fit, chosen: Refined, gate: float) -> tuple[Refined, str]:
