@@ -66,6 +66,9 @@ stand out."""
 
 MOST_EFFECTS = 8
 
+HALFWAY = 1 / 3
+"""Share of the gate that one of two slow effects has to explain alone."""
+
 STEPS = 6
 """Of least squares towards the places where forces act."""
 
@@ -345,22 +348,24 @@ class _Search:
     def _two_at_once(self) -> bool:
         """Take two slow effects in that hide each other: beside a walk whose size nobody knows each
         is a part of what the other leaves, and neither explains enough alone. Beside the other each
-        has to pass the gate and the held-out rows; False where no two do.
+        has to pass the gate and the held-out rows; False where no two do. Those are tried that come
+        to ``HALFWAY`` alone: the search is as long as a step for each, and beside a reference with
+        noise of its own it is not made.
         """
-        some = sorted(self.tried.refined.values(), key=lambda r: -r.gain)
-        for one in some:
-            if one.gain <= 0.0 or not is_slow(CATALOGUE[one.screened.effect]):
-                continue
+        if has_noise(self.after):
+            return False
+        some = [r for r in self.tried.refined.values() if _is_slow(r)]
+        for one in sorted(some, key=lambda r: -r.gain):
+            if one.gain < HALFWAY * self.seen.gate:
+                return False
             other = self._beside(one.fit)
-            if other is None or not is_slow(CATALOGUE[other[0].screened.effect]):
+            if other is None or not _is_slow(other[0]):
                 continue
-            alone = beside(self.after, other[0].screened)
-            back = self._beside(alone)
-            if back is None or not is_slow(CATALOGUE[back[0].screened.effect]):
-                continue
-            self.steps.append(self._step(*other))
-            self._add(*back)
-            return True
+            back = self._beside(beside(self.after, other[0].screened))
+            if back is not None and _is_slow(back[0]):
+                self.steps.append(self._step(*other))
+                self._add(*back)
+                return True
         return False
 
     def _beside(self, after: Fit) -> tuple[Refined, tuple[str, ...]] | None:
@@ -400,6 +405,10 @@ class _Search:
         self.tried = Tried(self.after, self.sensor.values)
         self.left_out = self._left_out()
         self.last = self.seen = self.tried.looked()[0]
+
+
+def _is_slow(one: Refined) -> bool:
+    return is_slow(CATALOGUE[one.screened.effect])
 
 
 def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:
