@@ -349,10 +349,10 @@ class _Search:
         """Take two slow effects in that hide each other: beside a walk whose size nobody knows each
         is a part of what the other leaves, and neither explains enough alone. Beside the other each
         has to pass the gate and the held-out rows; False where no two do. Those are tried that come
-        to ``HALFWAY`` alone: the search is as long as a step for each, and beside a reference with
-        noise of its own it is not made.
+        to ``HALFWAY`` alone: the search is as long as a step for each, and beside a derived
+        reference it is not made, whose noise makes it long.
         """
-        if has_noise(self.after):
+        if any(t.band_hz is not None for t in self.after.trials):
             return False
         some = [r for r in self.tried.refined.values() if _is_slow(r)]
         for one in sorted(some, key=lambda r: -r.gain):
