@@ -53,12 +53,20 @@ def misfit(trials: Iterable[Trial]) -> str:
     alone = next(filter(None, map(moves_alone, trials)), "")
     if alone:
         return alone
-    clocked = [t for t in trials if t.clock is not None]
-    for t in clocked:
-        mistake = mistaken(t)
+    for t in trials:
+        mistake = mistaken(t) if t.clock is not None or _shows_turns(t) else ""
         if mistake:
             return f"the reference of {t.name} {mistake}"
+    clocked = (t for t in trials if t.clock is not None)
     return next(filter(None, (too_little(t, t.clock.explained) for t in clocked)), "")
+
+
+def _shows_turns(trial: Trial) -> bool:
+    """Whether a reference shows all of a gyro's motion, the clock of either known or not: beside
+    numbers of another size none is found.
+    """
+    plain = trial.kind == "gyro" and trial.reduction is None
+    return plain and trial.reference in ("rate", "attitude")
 
 
 def moves_alone(trial: Trial) -> str:
