@@ -358,27 +358,27 @@ class _Search:
         for one in sorted(some, key=lambda r: -r.gain):
             if one.gain < HALFWAY * self.seen.gate:
                 return False
-            other = self._beside(one.fit)
-            if other is None or not _is_slow(other[0]):
-                continue
-            back = self._beside(beside(self.after, other[0].screened))
-            if back is not None and _is_slow(back[0]):
+            other = self._slow_beside(one.fit)
+            back = self._slow_beside(beside(self.after, other[0].screened)) if other else None
+            if other and back:
                 self.steps.append(self._step(*other))
                 self._add(*back)
                 return True
         return False
 
-    def _beside(self, after: Fit) -> tuple[Refined, tuple[str, ...]] | None:
-        """The candidate that stands beside a model, by any view, and the names of those that
+    def _slow_beside(self, after: Fit) -> tuple[Refined, tuple[str, ...]] | None:
+        """The slow candidate that stands beside a model, by any view, and the names of those that
         explain as much; None where none does.
         """
         tried = Tried(after, self.sensor.values)
+        tried.views = [(view, True) for view, _ in tried.views]
         while tried.views:
             seen, _ = tried.looked()
+            gate = max(seen.gate, self.seen.gate)
             options = [c for c in seen.above() if c.effect not in self.refused]
-            chosen, names = chosen_of(tried, options, seen.gate)
+            chosen, names = chosen_of(tried, options, gate)
             if chosen is not None:
-                chosen, reason = judged(tried, chosen, self.held, seen.gate)
+                chosen, reason = judged(tried, chosen, self.held, gate)
                 return None if reason else (chosen, names)
         return None
 
