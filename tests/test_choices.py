@@ -61,7 +61,8 @@ def options():
         for parameter in command.params:
             names = {key.rpartition(" ")[2] for key in NAMES} | {"--part", "--for", "--export"}
             if names & set(parameter.opts):
-                if (command.name, parameter.opts[0]) != ("close", "--reference"):
+                free = {("close", "--reference"), ("inspect", "--sensor")}
+                if (command.name, parameter.opts[0]) not in free:
                     yield command, parameter
 
 
