@@ -45,9 +45,7 @@ def test_there_is_a_log_of_every_reader_and_every_known_layout(seeds):
     found = [open_reader(path) for path in (*paths, *folders)]
     made = [with_made_columns(reader, ForeignMap())[0] for reader in found]
     known = {known[0] for reader in made if (known := recognised(reader))}
-    # Not fuzzed yet: tests/recording/test_published_data_sets.py reads one of each.
-    apart = ("NCLT's fibre-optic gyro", "KAIST's fibre-optic gyro", "Mid-Air")
-    assert {name for name, _ in FORMATS if not name.startswith(apart)} <= known
+    assert {name for name, _ in FORMATS} <= known
 
 
 def test_there_is_every_kind_of_folder(seeds):
@@ -68,7 +66,7 @@ def test_every_log_is_read_before_it_is_damaged(fuzzer, seeds):
     for path in seeds:
         without = ("mat-", "mat73-", "hdf5-", *fuzzer.GUESSED)
         if path.suffix != ".toml" and not path.name.startswith(without):
-            truth = path.name.startswith(("nclt_truth", "posed"))
+            truth = path.name.startswith(("nclt_truth", "nclt_fog", "posed"))
             found = (read_reference if truth else read_recording)(*fuzzer._given(path))
             assert len(found) >= fuzzer.ROWS - 1, path.name
 

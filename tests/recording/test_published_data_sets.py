@@ -4,7 +4,7 @@ gyro or a time and is none, refused, or left to the reader.
 
 import numpy as np
 import pytest
-from log_tables import receiver
+from log_tables import kaist_fog, mid_air, nclt_fog, receiver
 from scipy.io import savemat
 from scipy.spatial.transform import Rotation
 from turned_logs import G, H, N, agrees, by_its_map, rows, turned, written
@@ -218,34 +218,23 @@ def test_a_phone_s_accelerations_without_gravity_are_no_force(log, tmp_path):
 
 def test_kaists_fibre_optic_gyro_is_a_gyro_or_a_reference(log, tmp_path):
     """Turns from row to row, in rad."""
-    time, gyro, _ = log
-    stamps = [f"{1544590798700000000 + round(1e9 * t)}" for t in time]
-    path = written(tmp_path / "fog.csv", rows(stamps, gyro * H))
+    gyro, path = log[1], kaist_fog(tmp_path, log)
     np.testing.assert_allclose(read_recording(path).gyro, gyro, rtol=1e-5, atol=1e-6)
     np.testing.assert_allclose(read_reference(path).ref_rate, gyro, rtol=1e-5, atol=1e-6)
 
 
-def test_nclts_fibre_optic_gyro_is_a_heading(tmp_path):
+def test_nclts_fibre_optic_gyro_is_a_heading(log, tmp_path):
     """Clockwise from north, as its unit's axes have it."""
-    time = H * np.arange(N)
-    stamps = [f"{1326030975726043 + round(1e6 * t)}" for t in time]
-    path = written(tmp_path / "kvh.csv", rows(stamps, 0.1 * time))
-    found = read_reference(path).ref_heading
+    time = log[0]
+    found = read_reference(nclt_fog(tmp_path, log)).ref_heading
     np.testing.assert_allclose(found, np.pi / 2 - 0.1 * time, rtol=0, atol=1e-8)
 
 
 def test_mid_airs_flights_at_their_rate(log, tmp_path):
-    h5py = pytest.importorskip("h5py")
-    time, gyro, force = log
+    pytest.importorskip("h5py")
+    time, _, force = log
     attitude = Rotation.from_euler("ZYX", _attitude(time)[:, ::-1])
-    q = attitude.as_quat(scalar_first=True)
-    with h5py.File(tmp_path / "sensor_records.hdf5", "w") as file:
-        for flight in range(2):
-            group = file.create_group(f"trajectory_{flight:04d}")
-            group["imu/gyroscope"], group["imu/accelerometer"] = gyro * FRD, force * FRD
-            group["groundtruth/attitude"], group["groundtruth/velocity"] = q, gyro
-            group["groundtruth/position"], group["gps/position"] = force, force[::100]
-    found = read_recording(tmp_path / "sensor_records.hdf5")
+    found = read_recording(mid_air(tmp_path, log, attitude.as_quat(scalar_first=True)))
     agrees(found, log)
     assert found.sample_rate == pytest.approx(100.0)
     np.testing.assert_allclose(found.ref_up, -force[:, 2], rtol=0, atol=1e-9)

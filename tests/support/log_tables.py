@@ -216,6 +216,35 @@ def kaist(folder, log):
     )
 
 
+def kaist_fog(folder, log):
+    """The fibre-optic gyro of KAIST's cars: turns from row to row, in rad."""
+    stamps = [str(1544590798700000000 + round(1e9 * t)) for t in log[0]]
+    period = float(np.median(np.diff(log[0])))
+    return table(folder / "fog.csv", [], [stamps, *(period * log[1]).T])
+
+
+def nclt_fog(folder, log):
+    """The heading of NCLT's fibre-optic gyro, clockwise, of a platform that turns by 0.1 rad/s."""
+    stamps = [str(1326030975726043 + round(1e6 * t)) for t in log[0]]
+    return table(folder / "kvh.csv", [], [stamps, 0.1 * log[0]])
+
+
+def mid_air(folder, log, attitude=(1.0, 0.0, 0.0, 0.0)):
+    """Two flights of Mid-Air, of an ``attitude`` (4,) or (n, 4)."""
+    import h5py
+
+    _, gyro, accel = log
+    path = folder / "sensor_records.hdf5"
+    with h5py.File(path, "w") as file:
+        for flight in range(2):
+            group = file.create_group(f"trajectory_{flight:04d}")
+            group["imu/gyroscope"], group["imu/accelerometer"] = gyro * FRD, accel * FRD
+            group["groundtruth/attitude"] = np.broadcast_to(attitude, (len(gyro), 4))
+            group["groundtruth/velocity"], group["groundtruth/position"] = gyro, accel
+            group["gps/position"] = accel[::100]
+    return path
+
+
 def posed_by_receiver(folder, log):
     """The navigation result of KF-GINS."""
     rows = ([2017, 456300 + t, 30.5, 114.4, 20.0, *[0.1] * 3, 1.0, 2.0, 90.0] for t in log[0])
@@ -238,6 +267,7 @@ ALONE = tuple(
         *(px4, ardupilot, mavlink, vectornav),
         *(novatel, wisdm, pamap2, total_capture, hyper_imu, posed_by_cameras),
         *(empatica, nexus, posed_by_vicon, kaist, posed_by_receiver),
+        *(kaist_fog, nclt_fog, mid_air),
     )
 )
 """Layouts that are read as they are."""
