@@ -30,7 +30,7 @@ DEFINED = {
     "--fmi": map(str, FORMS),
     "--platform": ("host", "all", *PLATFORMS),
     "--ssp": DRIVES,
-    "--sensor": KINDS,
+    "plan --sensor": KINDS,
     "--settings": FILTERS,
     "navigate --method": (*OF_POSITION, "all"),
     "--zupt": ZUPT,
@@ -59,11 +59,9 @@ def options():
     group = typer.main.get_command(app)
     for command in group.commands.values():
         for parameter in command.params:
-            names = {key.rpartition(" ")[2] for key in NAMES} | {"--part", "--for", "--export"}
-            if names & set(parameter.opts):
-                free = {("close", "--reference"), ("inspect", "--sensor")}
-                if (command.name, parameter.opts[0]) not in free:
-                    yield command, parameter
+            own = {*parameter.opts, *(f"{command.name} {name}" for name in parameter.opts)}
+            if own & {*NAMES, "--part", "--for", "--export"}:
+                yield command, parameter
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ NAMES: dict[str, tuple[str, ...]] = {
         "aarch64-darwin",
     ),
     "--ssp": ("straight", "obstacle", "ackermann", "turn_on_spot", "free"),
-    "--sensor": ("gyro", "accel"),
+    "plan --sensor": ("gyro", "accel"),
     "--settings": ("ukf", "hidalgo2012"),
     "navigate --method": ("paper", "strapdown", "filter", "smoother", "all"),
     "--zupt": ("auto", "live", "foot", "declared", "off"),

@@ -92,7 +92,7 @@ def plan_command(
         option(
             "--sensor",
             "gyro or accel; else the first that has the effects.",
-            one_of("--sensor"),
+            one_of("plan --sensor"),
         ),
     ] = None,
     within: Annotated[

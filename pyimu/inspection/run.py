@@ -94,11 +94,16 @@ def inspect(
             found = _by_numbers(found, readers)
         return replace(found, problem=error.bare)
     say("looking for rests")
+    return _looked_into(found, recording, map_given)
+
+
+def _looked_into(found: Inspection, recording: Recording, given: MapGiven) -> Inspection:
+    """What is found in the samples of a log; its map with forces in the unit of their gravity."""
     findings = (*gyro_findings(recording), *quality(recording))
-    false = false_force(findings)
+    false, text = false_force(findings), found.column_map
     if false is not None:
-        right = [_in_right_unit(p, false) for p in proposals]
-        text = text_of(_ordered(right), map_given)
+        right = [_in_right_unit(p, false) for p in found.proposals]
+        text = text_of(_ordered(right), given)
     return replace(
         found,
         recording=recording,

@@ -54,6 +54,9 @@ beside it is what they left."""
 MEASURED = ("rate", "force")
 """References that were measured themselves, and not differentiated."""
 
+TURNS = ("rate", "attitude")
+"""References that show all of a gyro's motion."""
+
 NO_DIGITS = (0.0, 0.0, 0.0)
 
 

@@ -32,7 +32,7 @@ def left_to_data(
     effects = {s.effect: sensor.effect(s.effect) for s in left}
     left = [s for s in left if not (effects[s.effect].stochastic or effects[s.effect].per_power_on)]
     if declared and all(t.reference == "static" for t in trials):
-        _refuse_without_motion(start, sensor, [s for s in left], trials[0].name)
+        _refuse_without_motion(start, sensor, left, trials[0].name)
     if all(t.any_turn for t in trials):
         # A turn of the whole triad is the mounting's; what such an effect has of its own is three
         # angles, not six.

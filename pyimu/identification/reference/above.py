@@ -21,13 +21,11 @@ from pyimu.identification.reference.place import at_the_point, with_force
 from pyimu.identification.reference.turned import turn_of
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS
-from pyimu.recording.clock import runs
+from pyimu.recording.clock import GAP, runs
+from pyimu.recording.gaps import gap_rows
 from pyimu.recording.reference.filters import below, seen_as, turned_by
 from pyimu.recording.reference.unfiltered_places import GROUPS
 from pyimu.recording.reference.unsmoothed import SMOOTHED, TURNING, Smoothing
-
-GAP = 1.5
-"""Sample periods from which on two rows have a gap between them."""
 
 COLUMNS_OF_PLACES = frozenset(names[0] for names in GROUPS.values())
 
@@ -68,23 +66,23 @@ def with_gyro_above(trial: Trial) -> Trial:
     u, more, segments = copied(trial.u), np.zeros(trial.y.shape), []
     reach, axes = smoothing.reach(trial.h), list(trial.axes)
     for (a, b), (first, last) in _within_samples(trial, reach):
-        seen, known = trial.y[first:last] @ turn.T, slice(max(a, first + reach), last - reach)
-        known = slice(known.start, min(b, known.stop))
-        if known.stop - known.start <= reach:
+        inner, until = max(a, first + reach), min(b, last - reach)
+        if until - inner <= reach:
             continue
+        seen = trial.y[first:last] @ turn.T
         if trial.reference == "attitude":
             lost = _attitude_more(smoothing, seen, u[first:last, OWN["gyro"]], trial.h)
         else:
             lost = np.zeros(seen.shape)
             lost[:, axes] = smoothing.lost(seen[:, axes], trial.h)
-        more[known] = lost[known.start - first : known.stop - first]
-        segments.append((known.start, known.stop))
+        more[inner:until] = lost[inner - first : until - first]
+        segments.append((inner, until))
     if not segments:
         return trial
     u[:, OWN["gyro"]] += more
-    seen = replace(trial, u=u, segments=segments)
-    u[:, own_rate("gyro")] += slopes(seen, more)
-    return seen
+    whole = replace(trial, u=u, segments=segments)
+    u[:, own_rate("gyro")] += slopes(whole, more)
+    return whole
 
 
 def _within_samples(trial: Trial, reach: int) -> list[tuple[tuple[int, int], tuple[int, int]]]:
@@ -93,7 +91,7 @@ def _within_samples(trial: Trial, reach: int) -> list[tuple[tuple[int, int], tup
     """
     known = marked(trial.segments, len(trial.time))
     known |= True if trial.left_out is None else ~trial.left_out
-    breaks = 1 + np.flatnonzero(np.diff(trial.time) > GAP * trial.h)
+    breaks = gap_rows(trial.time, trial.h, GAP * trial.h)
     edges = np.unique(np.concatenate([[0], *runs(known), breaks, [len(known)]])).astype(int)
     around = []
     for a, b in trial.segments:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from pyimu.identification.fit.columns import in_band
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import TURNS, Trial
 from pyimu.identification.reference.clock import are_still
 from pyimu.identification.reference.moving import (
     LEAST_ROWS,
@@ -65,8 +65,7 @@ def _shows_turns(trial: Trial) -> bool:
     """Whether a reference shows all of a gyro's motion, the clock of either known or not: beside
     numbers of another size none is found.
     """
-    plain = trial.kind == "gyro" and trial.reduction is None
-    return plain and trial.reference in ("rate", "attitude")
+    return trial.kind == "gyro" and trial.reference in TURNS and trial.reduction is None
 
 
 def moves_alone(trial: Trial) -> str:

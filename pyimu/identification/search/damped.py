@@ -20,7 +20,7 @@ from pyimu.identification.fit.damping import Damped, beyond_noise
 from pyimu.identification.fit.fit import Fit, Last
 from pyimu.identification.fit.inputs import copied
 from pyimu.identification.fit.maximum_likelihood import fit
-from pyimu.identification.fit.trial import Trial
+from pyimu.identification.fit.trial import TURNS, Trial
 from pyimu.identification.search.own_lag import may_hide_a_lag
 from pyimu.model.kinds import OWN
 
@@ -39,9 +39,6 @@ and twice that."""
 
 EDGE = 0.25
 """Frequency, a row, from which on there is no room for that."""
-
-TURNS = ("rate", "attitude")
-"""References that show all of a motion."""
 
 SURE = 3.0
 """Standard errors within which a period is that of the samples."""

@@ -354,7 +354,7 @@ class _Search:
         """
         if any(t.band_hz is not None for t in self.after.trials):
             return False
-        some = [r for r in self.tried.refined.values() if _is_slow(r)]
+        some = [r for name, r in self.tried.refined.items() if is_slow(CATALOGUE[name])]
         for one in sorted(some, key=lambda r: -r.gain):
             if one.gain < HALFWAY * self.seen.gate:
                 return False
@@ -405,10 +405,6 @@ class _Search:
         self.tried = Tried(self.after, self.sensor.values)
         self.left_out = self._left_out()
         self.last = self.seen = self.tried.looked()[0]
-
-
-def _is_slow(one: Refined) -> bool:
-    return is_slow(CATALOGUE[one.screened.effect])
 
 
 def _as_sampled(before: Fit, held: list[Trial]) -> tuple[Fit, list[Step]]:

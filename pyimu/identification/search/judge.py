@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from itertools import product
+from itertools import chain, product
 
 from pyimu.identification.fit.fit import Fit
-from pyimu.identification.fit.keys import coefficients_of
+from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.belief import hidden, unbelievable
 from pyimu.identification.search.candidates import Group, subsets
@@ -82,23 +83,24 @@ def _within_belief(old: Fit, chosen: Refined) -> Refined:
     beyond = {k for k in keys_of(seen) if unbelievable(chosen.fit, [k])}
     if not beyond or seen.form is not None or seen.values:
         return chosen
-    every = coefficients_of(chosen.fit.sensor, seen.effect) - beyond
-    instead = []
-    for group in seen.groups:
-        row = sorted(k for k in every if k.index[:1] == group.keys[0].index[:1])
-        some = [group.keys] if beyond.isdisjoint(group.keys) else subsets(row) if row else [()]
-        instead.append([replace(group, keys=keys) if keys else None for keys in some])
-    found = [
-        refine(old, replace(seen, groups=kept))
-        for groups in product(*instead)
-        if (kept := tuple(g for g in groups if g is not None))
-    ]
+    others = sorted(coefficients_of(chosen.fit.sensor, seen.effect) - beyond)
+    instead = [_instead(g, others) if beyond.intersection(g.keys) else [(g,)] for g in seen.groups]
+    ways = [tuple(chain.from_iterable(some)) for some in product(*instead)]
+    found = [refine(old, replace(seen, groups=groups)) for groups in ways if groups]
     for other in sorted(found, key=lambda r: -r.gain):
         if ahead(chosen, other) > SET_WIDTH:
             break
         if not unbelievable(other.fit, keys_of(other.screened)):
             return other
     return chosen
+
+
+def _instead(group: Group, others: Sequence[Coefficient]) -> list[tuple[Group, ...]]:
+    """What may stand in place of a group: some of the ``others`` on its axis, or nothing where
+    there are none.
+    """
+    row = [k for k in others if k.index[:1] == group.keys[0].index[:1]]
+    return [(replace(group, keys=keys),) for keys in subsets(row)] if row else [()]
 
 
 def _shown(old: Fit, chosen: Refined, gate: float) -> tuple[Refined, str]:

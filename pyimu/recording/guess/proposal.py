@@ -159,7 +159,9 @@ def _picked(found: Proposal, vectors: list[Triad], sensor: str) -> dict[str, Pic
     if sensor:
         vectors = of_sensor(vectors, sensor)
         if not vectors:
-            there = f": there are {', '.join(several)}" if several else ", or of several"
+            there = (
+                f": there are {', '.join(several)}" if several else "; its columns tell none apart"
+            )
             raise UserError(f"{found.path}: no vectors of a sensor {sensor!r}{there}")
     picked: dict[str, Picked] = {}
     for group, (best, others) in of_one(vectors, ("gyro", "accel", "mag")).items():
