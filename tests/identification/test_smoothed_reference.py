@@ -8,6 +8,9 @@ from scipy.signal import butter, lfilter, sosfiltfilt
 from scipy.spatial.transform import Rotation, RotationSpline
 
 import pyimu
+from pyimu.identification.fit.trials import gyro_trial
+from pyimu.identification.reference.above import with_gyro_above
+from pyimu.model.kinds import OWN
 from pyimu.recording.integration import integrated
 from pyimu.recording.recording import Recording
 from pyimu.recording.reference.filters import turned_by
@@ -118,6 +121,24 @@ def test_what_moves_above_all_that_can_be_restored_is_no_error_of_the_sensor(of)
     assert not blamed(closed), closed.report()
     gyro = closed.errors["gyro"]
     assert gyro.after.total < 1.3 * gyro.floor.total
+
+
+@pytest.mark.parametrize("of", ["ref_rate", "ref_q"])
+@pytest.mark.parametrize("seed", range(21, 25))
+def test_beside_what_the_gyro_shows_above_nothing_but_its_noise_is_left(of, seed):
+    """The filter known: without what it hides 100 times that noise was left. A spline's end, which
+    fades by a quarter from row to row, is that of the restored attitudes.
+    """
+    hand = Hand(seed, seconds=30.0, shaken=0.04)
+    smoothed = mean_of(21)(hand.rate if of == "ref_rate" else hand.quaternions())
+    log = hand.log(**{of: smoothed if of == "ref_rate" else units(smoothed)})
+    trial = gyro_trial(unsmoothed(log, Smoothing("moving_average", 0.21)))
+    whole = with_gyro_above(trial)
+    left, was = (
+        np.concatenate([(t.y - t.u[:, OWN["gyro"]])[a + 9 : b - 9] for a, b in whole.segments])
+        for t in (whole, trial)
+    )
+    assert left.std() < 2e-3 < 0.01 * was.std()
 
 
 def test_turns_that_a_rate_makes_are_added_up_by_more_than_lines():
