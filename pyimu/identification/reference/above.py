@@ -27,6 +27,22 @@ from pyimu.recording.reference.filters import below, seen_as, turned_by
 from pyimu.recording.reference.unfiltered_places import GROUPS
 from pyimu.recording.reference.unsmoothed import SMOOTHED, TURNING, Smoothing
 
+FURTHER = 1.15
+"""Times the frequency up to which a reference is restored, above which what is left beside the
+sensor's own motion is a filter whose size is known no better than to some noise: of what can be
+restored it takes 2 % at nine tenths."""
+
+BENT = 9
+"""Rows at an end of restored attitudes at which the curve through them may be off: what it is off
+by fades by a quarter from row to row."""
+
+LONGER = 1e-3
+"""Share of a filter's size by which another is longer, whose difference is in proportion."""
+
+TURNED = 3
+"""Times that a mounting is found, beside what was found with the one before: what is lacking looks
+like a turn of tenths of a degree, which leaves 2 % of itself."""
+
 COLUMNS_OF_PLACES = frozenset(names[0] for names in GROUPS.values())
 
 
@@ -62,11 +78,20 @@ def with_gyro_above(trial: Trial) -> Trial:
     smoothing = smoothing_of(trial, TURNING)
     if trial.kind != "gyro" or smoothing is None:
         return trial
-    turn = turn_of(trial)[0] if trial.free_rotation else np.eye(3)
+    if not trial.free_rotation:
+        return _completed(trial, smoothing, np.eye(3))
+    whole = trial
+    for _ in range(TURNED):
+        whole = _completed(trial, smoothing, turn_of(whole)[0])
+    return whole
+
+
+def _completed(trial: Trial, smoothing: Smoothing, turn: np.ndarray) -> Trial:
+    """The trial with what its reference lacks by a gyro whose axes are a ``turn`` (3, 3) off."""
     u, more, segments = copied(trial.u), np.zeros(trial.y.shape), []
     reach, axes = smoothing.reach(trial.h), list(trial.axes)
     for (a, b), (first, last) in _within_samples(trial, reach):
-        inner, until = max(a, first + reach), min(b, last - reach)
+        inner, until = max(a + BENT, first + reach), min(b - BENT, last - reach)
         if until - inner <= reach:
             continue
         seen = trial.y[first:last] @ turn.T
@@ -75,7 +100,9 @@ def with_gyro_above(trial: Trial) -> Trial:
         else:
             lost = np.zeros(seen.shape)
             lost[:, axes] = smoothing.lost(seen[:, axes], trial.h)
+        left = (seen - u[first:last, OWN["gyro"]] - lost)[inner - first : until - first, axes]
         more[inner:until] = lost[inner - first : until - first]
+        more[inner:until, axes] += left - below(left, 2.0 * trial.h * FURTHER * smoothing.up_to)
         segments.append((inner, until))
     if not segments:
         return trial
@@ -83,6 +110,28 @@ def with_gyro_above(trial: Trial) -> Trial:
     whole = replace(trial, u=u, segments=segments)
     u[:, own_rate("gyro")] += slopes(whole, more)
     return whole
+
+
+def if_longer(trial: Trial) -> np.ndarray:
+    """What the reference of a trial, once restored, shows more (n, 3) of the motion that its gyro
+    saw where the filter over it was longer than the one that was taken out, for each share of its
+    size; zero outside segments, and above what is judged.
+    """
+    out, smoothing = np.zeros(trial.y.shape), smoothing_of(trial, TURNING)
+    if smoothing is None:
+        return out
+    both = smoothing, replace(smoothing, size=(1.0 + LONGER) * smoothing.size)
+    for (a, b), (first, last) in _within_samples(trial, smoothing.reach(trial.h)):
+        seen, h = trial.y[first:last], trial.h
+        if trial.reference == "attitude":
+            body = turned_by(seen, h)
+            kept = [smoothing.attitudes(one.smoothed(body, h), h) for one in both]
+            short, long = (seen_as(q, body, seen, h) for q in kept)
+        else:
+            short, long = (smoothing.vectors(one.seen(seen, h, None), h) for one in both)
+        more = (long - short)[a - first : b - first] / LONGER
+        out[a:b] = below(more, 2.0 * h * FURTHER * smoothing.up_to)
+    return out
 
 
 def _within_samples(trial: Trial, reach: int) -> list[tuple[tuple[int, int], tuple[int, int]]]:

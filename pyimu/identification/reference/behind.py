@@ -20,7 +20,7 @@ from typing import Protocol
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from pyimu.identification.fit.damping import damping
+from pyimu.identification.fit.damping import beyond_noise, damping
 from pyimu.identification.fit.digits import may_be_rounding
 from pyimu.identification.fit.interpolated import TAPS, delayed
 from pyimu.identification.fit.trial import Trial
@@ -139,6 +139,11 @@ def _filter(trial: Trial, sensor: Sensor) -> Filter | None:
     fitted = fitted_structure(trial, sensor)
     gain, falls = damping(fitted)
     smooth = falls < -SLIGHT and gain > WANDERS
+    if not smooth:
+        # What moves above the band comes through its window, and not into what stands out within.
+        clear = beyond_noise(fitted)
+        gain, falls = clear.gain, clear.falls
+        smooth = falls < -SLIGHT and gain > WANDERS
     if not smooth:
         gain, falls = damping(fitted, by_sensor=True) if early else (0.0, 0.0)
     half_variance = -falls

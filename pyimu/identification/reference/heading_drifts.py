@@ -18,6 +18,7 @@ from pyimu.identification.fit.damping import slopes
 from pyimu.identification.fit.inputs import copied
 from pyimu.identification.fit.place import verticals
 from pyimu.identification.fit.trial import SETTLE, Trial, marked
+from pyimu.identification.reference.above import with_gyro_above
 from pyimu.model.kinds import OWN
 from pyimu.model.signals import COLUMNS
 from pyimu.numerics.columns import unexplained
@@ -52,7 +53,8 @@ def with_steady_heading(trial: Trial) -> Trial:
     axes_known = len(trial.axes) == 3 and trial.reference == "attitude"
     if trial.kind != "gyro" or not axes_known:
         return trial
-    seen = _Blocks(trial)
+    # What shaking makes of smoothed attitudes is slow, too.
+    seen = _Blocks(with_gyro_above(trial))
     found = None if not seen.enough else seen.likeliest()
     if found is None:
         return trial

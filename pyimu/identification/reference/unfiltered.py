@@ -45,7 +45,7 @@ def unfiltered_logs(
     found = _undone(trials, lambda t: without_adapting(t) or without_filter(t, sensor), logs)
     if found is None:
         return None
-    sizes = {t.name: resized(t, sensor) for ts in made(*found) for t in ts}
+    sizes = {t.name: resized(t) for ts in made(*found) for t in ts}
     return tuple(
         [undo(was) if (undo := sizes.get(r.name)) else r for was, r in zip(*both, strict=True)]
         for both in zip(logs, found, strict=True)

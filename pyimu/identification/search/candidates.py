@@ -19,6 +19,10 @@ from pyimu.model.arguments import Parameter
 from pyimu.model.catalogue import CATALOGUE
 from pyimu.model.effect import Effect
 from pyimu.model.sensor import Sensor, candidates
+from pyimu.recording.reference.unsmoothed import SMOOTHED
+
+CONING = "coning"
+"""The effect that is w x w' of the rate w."""
 
 MOST_ENTRIES = 6
 """Entries of a row of which all combinations are looked at."""
@@ -74,22 +78,31 @@ def absent(fit: Fit) -> list[Effect]:
 
     A course shows no sensor's delay: a tracked point ``l`` ahead of the axle turns its course l / v
     before the vehicle turns, and the clock stands for that. Where a reference's clock is seen, a
-    clock of the sensor that runs at another rate is the same.
+    clock of the sensor that runs at another rate is the same, and where attitudes were smoothed,
+    what their filter is off by is the same as coning.
     """
     known = known_to_all(fit.trials)
     present = {name for name in fit.sensor.values if not fit.sensor.is_off(name)}
     twins = set().union(*(equivalent(name) for name in present))
     timed = all(t.reference != "course" for t in fit.trials)
     clocked = any(t.clock is not None and t.clock.is_seen for t in fit.trials)
+    smoothed = has_smoothed_attitudes(fit.trials)
     return [
         e
         for e in candidates(fit.sensor.kind, present | twins)
         if not e.per_power_on
         and (timed or e.delay is None)
         and not (e.clock and (clocked or not timed))
+        and not (e.name == CONING and smoothed)
         and has_columns(e, fit.sensor.kind)
         and e.signals(fit.sensor.kind) <= known
     ]
+
+
+def has_smoothed_attitudes(trials: Iterable[Trial]) -> bool:
+    """Whether a filter was taken out of the attitudes of any of the trials."""
+    found = (f for t in trials for f in t.findings)
+    return any(f.kind == SMOOTHED and f.column == "ref_q" for f in found)
 
 
 def has_columns(e: Effect, kind: str) -> bool:

@@ -5,7 +5,12 @@ from __future__ import annotations
 from pyimu.identification.fit.surroundings import PLACE
 from pyimu.identification.fit.trial import known_to_all
 from pyimu.identification.noise.rounding import HIDDEN, is_read, shows_samples
-from pyimu.identification.search.candidates import absent, has_columns
+from pyimu.identification.search.candidates import (
+    CONING,
+    absent,
+    has_columns,
+    has_smoothed_attitudes,
+)
 from pyimu.identification.search.investigation import Investigation
 from pyimu.model.effect import Effect
 from pyimu.model.signals import inputs_of
@@ -30,6 +35,8 @@ def why_unasked(kind: str, inv: Investigation, e: Effect, noise: str = "") -> st
         return "no way to look for it in these logs"
     if e in absent(inv.before):
         return UNEXCITED
+    if e.name == CONING and has_smoothed_attitudes(inv.before.trials):
+        return "what the filter over the reference is off by looks the same"
     return "the clock of the reference shows the same, and is estimated anyway"
 
 
