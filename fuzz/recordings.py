@@ -20,6 +20,7 @@ import log_arrays
 import log_files
 import log_folders
 import log_lines
+import log_sheets
 import log_tables
 import raw_logs
 import turned_logs
@@ -83,7 +84,8 @@ GUESSED = tuple(f"{make.__name__}-" for make in ARRAYS if make not in log_arrays
 MAPPED = "mapped-"
 """How the names of folders begin that hold a log and its column map."""
 
-FIRST_FILES = ("imu.dat", "ouster_imu.csv", "gyr.csv", "serial.txt", "vn.txt", "log.mat", "log.h5")
+FIRST_FILES = ("imu.dat", "ouster_imu.csv", "gyr.csv", "serial.txt", "vn.txt", "log.mat")
+FIRST_FILES += ("log.h5", "log.raw")
 """The file in them that is read by it."""
 
 ENDINGS = sorted(READERS)
@@ -96,9 +98,10 @@ def seeds(folder: Path) -> None:
         _take(folder, kind.replace(".", "_"), lambda place, k=kind: _of_kind(place, k, log))
     _take(folder, "bag_of_ros2", lambda place: _of_kind(place, "folder", log))
     folders = (*log_folders.FILES, *log_folders.FOLDERS, *log_folders.OTHERS)
-    for make in (*raw_logs.ALONE, *folders, *log_lines.ALONE, *log_tables.ALONE):
+    tables = (*log_lines.ALONE, *log_tables.ALONE, *log_sheets.ALONE)
+    for make in (*raw_logs.ALONE, *folders, *tables):
         _take(folder, make.__name__, lambda place, make=make: make(place, still))
-    for make in (*raw_logs.MAPPED, *log_lines.MAPPED):
+    for make in (*raw_logs.MAPPED, *log_lines.MAPPED, *log_sheets.MAPPED):
         make(_mapped(folder, make.__name__), still)
     for kind in ("mat", "mat73", "hdf5"):
         log_files.written(_mapped(folder, kind), kind, log)

@@ -12,7 +12,7 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.recording.columns import ANGLES, GROUPS, column_names
-from pyimu.recording.guess.guessed import Proposal
+from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.recording import Recording
 from pyimu.report.findings import grouped
 from pyimu.report.numbers import number, quantity
@@ -70,7 +70,7 @@ class Outcome:
 
         (columns in the file, meaning, unit, numbers, how it is known).
         """
-        rows: dict[tuple[str, str], list[Any]] = {}
+        rows: dict[tuple[str, str], list[Guess]] = {}
         for proposal in self.proposals:
             for guess in proposal.guesses:
                 rows.setdefault((proposal.path.name, guess.group), []).append(guess)
@@ -78,7 +78,7 @@ class Outcome:
             (
                 ", ".join(guess.cell for guess in guesses),
                 group,
-                _unit(guesses[0]),
+                _units(guesses),
                 "" if guesses[0].target in ANGLES else self._range(group),
                 guesses[0].why,
             )
@@ -142,7 +142,13 @@ class Outcome:
         }
 
 
-def _unit(guess: Any) -> str:
+def _units(guesses: Sequence[Guess]) -> str:
+    """The unit of the columns of a group, of each where they differ."""
+    units = [_unit(guess) for guess in guesses]
+    return ", ".join(units if len(set(units)) > 1 else units[:1])
+
+
+def _unit(guess: Guess) -> str:
     if guess.unit is None:
         return "?"
     return guess.unit if guess.value is None else f"count of {guess.value:.6g} {guess.unit}"

@@ -57,7 +57,9 @@ def inspect(
         if foreign is None and whole.foreign.columns:
             foreign = whole.foreign
     say("looking at the columns")
-    readers = [open_reader(path, foreign.topics if foreign else {}) for path in given]
+    own = foreign or ForeignMap()
+    packed = {name: its.binary for name, its in own.files} | {given[0].name: own.binary}
+    readers = [open_reader(path, own.topics, packed.get(path.name)) for path in given]
     readers, foreign = _with_made_columns(readers, foreign)
     known = None if foreign is not None or sensor else _recognised(readers[0])
     if foreign is None and known is None and len(readers) == 1:

@@ -78,9 +78,9 @@ def core_motion(reader: Reader) -> ForeignMap | None:
     found = triads(reader.header)
     for group, unit in (("gyro", "rad/s"), ("mag", "uT")):
         triad, _ = surest(found, group)
-        if triad is not None and (triad.unit is not None or group == "gyro"):
+        if triad is not None and (triad.units is not None or group == "gyro"):
             vector = [name.cell for name in triad.names]
-            columns |= triad_map(vector, group, triad.unit or unit)
+            columns |= triad_map(vector, group, triad.units or unit)
     return ForeignMap(columns=time_line(reader, _times(reader)) | columns)
 
 
@@ -101,7 +101,7 @@ def _without_gravity(reader: Reader) -> ForeignMap | None:
     words = (gyro.names[0].words[-2:], force.names[0].words[-2:])
     if words != (("rotation", "rate"), ("user", "acceleration")):
         return None
-    columns = triad_map([name.cell for name in gyro.names], "gyro", gyro.unit or "rad/s")
+    columns = triad_map([name.cell for name in gyro.names], "gyro", gyro.units or "rad/s")
     cells = ", ".join(name.cell for name in force.names)
     note = Finding("no_gravity", "accel", 1, {"columns": cells})
     return ForeignMap(columns=time_line(reader, _times(reader)) | columns, notes=(note,))

@@ -23,6 +23,7 @@ from pyimu.recording.angles import SEQUENCE
 from pyimu.recording.clock import RATES
 from pyimu.recording.columns import GROUPS, XYZ
 from pyimu.recording.counts import Scale, finite_number, read_scales
+from pyimu.recording.formats.packed import Packing, packing_in
 from pyimu.units import UnitError, convert, did_you_mean
 
 _UNIT = re.compile(r" ?\([^()]*\)$")
@@ -52,6 +53,8 @@ class ForeignMap:
     rate: float | None = None
     offset: float = 0.0
     files: tuple[tuple[str, ForeignMap], ...] = ()
+    binary: Packing | None = None
+    """What the rows are of a file of binary numbers."""
     notes: tuple[Finding, ...] = ()
     """What was decided where no user wrote it."""
 
@@ -133,7 +136,7 @@ def read_map(path: Path) -> ForeignMap:
 
 def map_of(data: Mapping[str, Any], path: Path) -> ForeignMap:
     """The column map that a TOML file's ``data`` are; messages call it ``path``."""
-    known = ("columns", "frame", "scale", "topics", "sample_rate", "time_offset", "file")
+    known = ("columns", "frame", "scale", "topics", "sample_rate", "time_offset", "file", "binary")
     _known_keys(path, "", data, known)
     frame = data.get("frame", {})
     _known_keys(path, "frame.", frame, ("body", "world", "q", "R", "angles"))
@@ -150,6 +153,7 @@ def map_of(data: Mapping[str, Any], path: Path) -> ForeignMap:
         angles=_choice(path, frame, "angles", SEQUENCES),
         rate=_rate(path, data.get("sample_rate")),
         offset=_offset(path, data.get("time_offset")),
+        binary=packing_in(data, path),
     )
     return replace(foreign, files=_files(path, data.get("file", []), foreign))
 
@@ -193,7 +197,8 @@ def _files(path: Path, entries: Any, whole: ForeignMap) -> tuple[tuple[str, Fore
         raise UserError(f"{path}: key file must be such as {example}")
     found = []
     for entry in entries:
-        _known_keys(path, "file.", entry, ("name", "topic", "columns", "scale", "sample_rate"))
+        known = ("name", "topic", "columns", "scale", "sample_rate", "binary")
+        _known_keys(path, "file.", entry, known)
         name = entry.get("name")
         if not isinstance(name, str) or not name:
             raise UserError(f"{path}: key file.name is missing, write {example}")
@@ -205,6 +210,7 @@ def _files(path: Path, entries: Any, whole: ForeignMap) -> tuple[tuple[str, Fore
             raise UserError(f'{path}: key file.topic must be text such as "UncalAccel"')
         topics = {"imu": topic} if topic else {}
         own = replace(whole, columns=columns, scale=scale, rate=rate, offset=0.0, topics=topics)
+        own = replace(own, binary=packing_in(entry, path))
         found.append((name, own))
     return tuple(found)
 

@@ -1,16 +1,20 @@
-"""Times that begin anew: counters at a power of two, as those of microcontrollers do, and seconds
-of the day or of the GPS week at its end.
+"""Times that begin anew: counters at a power of two, as those of microcontrollers do, and those of
+a second, a minute, an hour, a day or a GPS week at its end.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-BITS = (16, 24, 32)
+BITS = (8, 16, 24, 32)
 """Widths of such counters."""
 
-CALENDAR = {"day": 86400.0, "GPS week": 604800.0}
-"""s after which times begin anew that count from the start of a day, or of a week (IS-GPS-200)."""
+CALENDAR = {"second": 1.0, "minute": 60.0, "hour": 3600.0, "day": 86400.0, "GPS week": 604800.0}
+"""s after which times begin anew that count from the start of a second, of a day, or of a week
+(IS-GPS-200)."""
+
+SHORT = ("8 bits", "second", "minute", "hour")
+"""Ranges of which times go back by about as much for other reasons, too."""
 
 NEARLY = 0.9
 """A step back by more than this part of the counter's range may be its beginning anew."""
@@ -71,5 +75,5 @@ class Unwrapped:
 
 def spans(*seconds: float) -> dict[int, str]:
     """Ticks that times may count up to, of so many ``seconds``, and what they are called."""
-    calendar = {round(s / one): name for one in seconds for name, s in CALENDAR.items()}
+    calendar = {round(s / u): name for u in seconds for name, s in CALENDAR.items() if s >= u}
     return {2**bits: f"{bits} bits" for bits in BITS} | calendar

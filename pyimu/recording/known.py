@@ -302,12 +302,12 @@ def stated(
         triad, rivals = surest(found, group)
         if triad is None:
             continue
-        if needed and (triad.unit is None or rivals or triad.score < 4):
+        if needed and (triad.units is None or rivals or triad.score < 4):
             return None
         if triad.names[1].cell.strip().isdigit() or triad.is_of_vehicle:
             return None
-        if triad.unit is not None and not rivals:
-            columns |= triad_map([name.cell for name in triad.names], group, triad.unit)
+        if triad.units is not None and not rivals:
+            columns |= triad_map([name.cell for name in triad.names], group, triad.units)
     warm = thermometer(names)
     if warm is not None and warm.unit in FREEZING and "temperature" not in own:
         columns[warm.cell] = f"temperature [{warm.unit}]"

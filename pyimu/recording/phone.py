@@ -27,6 +27,7 @@ from pyimu.recording.formats.text import CsvReader
 from pyimu.recording.guess.numbers import SECONDS
 from pyimu.recording.naming.name import named
 from pyimu.recording.naming.triads import surest, triads
+from pyimu.recording.vectors import triad_map
 from pyimu.units import parse
 
 GYROS = ("Gyroscope.csv", "GyroscopeUncalibrated.csv")
@@ -108,14 +109,14 @@ def _by_header(path: Path, group: str) -> ForeignMap | None:
     header = CsvReader.open(path).header
     time = next((n for n in map(named, header) if n.is_time and n.unit in SECONDS), None)
     triad, _ = surest(triads(header, path.name), group)
-    if time is None or triad is None or triad.unit is None:
+    if time is None or triad is None or triad.units is None:
         return None
-    columns = {n.cell: f"{group}_{a} [{triad.unit}]" for a, n in zip(XYZ, triad.names, strict=True)}
+    columns = triad_map([name.cell for name in triad.names], group, triad.units)
     return ForeignMap(columns={time.cell: f"time [{time.unit}]"} | columns)
 
 
 def _map(group: str, unit: str, scale: dict[str, Scale] | None = None) -> ForeignMap:
-    columns = {"time": "time [ns]"} | {a: f"{group}_{a} [{unit}]" for a in XYZ}
+    columns = {"time": "time [ns]"} | triad_map(XYZ, group, unit)
     return ForeignMap(columns=columns, scale=scale or {})
 
 

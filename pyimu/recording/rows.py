@@ -16,10 +16,11 @@ from pyimu.recording.angles import of_angles
 from pyimu.recording.coarse import COARSE_STAMPS, EvenTimes, even_times
 from pyimu.recording.column_map import BODY, ForeignMap, read_map
 from pyimu.recording.columns import ANGLES, GROUP_OF, GROUPS, column_names, own_name
-from pyimu.recording.counter import NEARLY, Unwrapped, spans
+from pyimu.recording.counter import NEARLY, SHORT, Unwrapped, spans
 from pyimu.recording.counts import RawCounts
 from pyimu.recording.fixes import Fixes
 from pyimu.recording.folders import log_in
+from pyimu.recording.formats.ends import without_end
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.suffix import open_reader
 from pyimu.recording.formats.timed import TIME, TimedReader
@@ -28,6 +29,7 @@ from pyimu.recording.known import left_out, merged, recognised, said
 from pyimu.recording.made import with_made_columns
 from pyimu.recording.own_rows import in_own_rows
 from pyimu.recording.quality.tally import Tally
+from pyimu.recording.untimed import without_time
 from pyimu.recording.waking import Waking
 
 NORM_TOLERANCE = 1e-2
@@ -84,7 +86,7 @@ class Source:
         foreign = read_map(columns) if columns is not None else ForeignMap()
         whole = log_in(path)
         if whole is None:
-            return cls.of(open_reader(path, foreign.topics), foreign, wanted)
+            return cls.of(open_reader(path, foreign.topics, foreign.binary), foreign, wanted)
         own = whole.foreign
         foreign = foreign if foreign.columns else merged(own, foreign, own.files)
         source = cls.of(open_reader(whole.path, foreign.topics), foreign, wanted)
@@ -102,7 +104,7 @@ class Source:
         map names their columns. Raises UserError as ``open`` does.
         """
         findings: tuple[Finding, ...] = ()
-        is_known = False
+        is_known, mapped = False, foreign.path is not None and bool(foreign.columns)
         reader, foreign = with_made_columns(reader, foreign)
         if foreign.columns and reader.words:
             foreign = in_own_rows(reader, foreign)
@@ -122,7 +124,7 @@ class Source:
             if own_name(name) == "time" and cell in reader.clocks:
                 names[k] = TIME
                 findings = (*findings, Finding("clock_times", "time", 1, {"from": cell}))
-        reader = _timed(reader, foreign, names)
+        reader = _timed(reader, foreign, names, mapped)
         header = Header(
             reader.path,
             [*names, *reader.header[len(names) :]],
@@ -145,8 +147,11 @@ class Source:
         return cls(reader, header, foreign, companions)
 
 
-def _timed(reader: Reader, foreign: ForeignMap, names: list[str]) -> Reader:
-    """``reader``, with the times of a rate where it has none."""
+def _timed(reader: Reader, foreign: ForeignMap, names: list[str], mapped: bool) -> Reader:
+    """``reader``, with the times of a rate where it has none.
+
+    Raises UserError where a user has ``mapped`` columns, and none for the time.
+    """
     there = any(name.partition("[")[0].strip() == "time" for name in names)
     if foreign.rate is not None:
         if there:
@@ -156,6 +161,8 @@ def _timed(reader: Reader, foreign: ForeignMap, names: list[str]) -> Reader:
             )
         by = "the log's layout" if foreign.path is None else "the column map"
         return TimedReader(reader, foreign.rate, by)
+    if mapped and not there and reader.rate is None:
+        raise without_time(reader, foreign)
     if there or reader.rate is None:
         return reader
     return TimedReader(reader, reader.rate, "what the file says")
@@ -165,7 +172,8 @@ def _companions(path: Path, foreign: ForeignMap, header: Header) -> tuple[Source
     """The further files that a map names, beside the log or where their paths say."""
     found = []
     for name, own in foreign.files:
-        source = Source.of(open_reader(path.parent / name, own.topics), own, "any", header.groups)
+        reader = open_reader(path.parent / name, own.topics, own.binary)
+        source = Source.of(reader, own, "any", header.groups)
         twice = next((g for g in source.header.groups if g in header.groups), None)
         if twice is not None:
             raise UserError(f"{source.header.path}: holds {twice}, which {path} holds too")
@@ -257,7 +265,10 @@ class Rows:
     def _converted(self, counter: Unwrapped) -> Iterator[tuple[Values, float]]:
         """The columns of each batch in units of the package, and the share of the file read."""
         header, first = self.source.header, True
-        for columns, share in self.source.reader.batches(header.positions, header.time):
+        batches = self.source.reader.batches(header.positions, header.time)
+        if self.source.reader.is_sheet:
+            batches = without_end(batches, header.positions.index(header.time), self._end)
+        for columns, share in batches:
             if not len(columns[0]):
                 continue
             if first:
@@ -270,6 +281,11 @@ class Rows:
             self._single = self._single and _is_single(columns[at])
             self._raw.add(dict(zip(header.names, columns)))
             yield header.convert(columns, self.origin), share
+
+    def _end(self, index: int, count: int) -> None:
+        """Note that the last ``count`` rows, from that of the sample ``index`` on, are none."""
+        row = int(self.source.reader.place(index).rpartition(" ")[2])
+        self._tally.add([Finding("end_left_out", "", count, {"row": row})])
 
     def _headed(self, batches: Iterator[tuple[Values, float]]) -> Iterator[tuple[Values, float]]:
         """``batches``, the first of them once ``HEAD`` rows have told whether stamps are coarse."""
@@ -338,7 +354,7 @@ class Rows:
         """What to add where the time went back by nearly all that it may count up to."""
         seconds = self.source.header.seconds
         for ticks, name in spans(seconds).items():
-            if NEARLY * ticks * seconds < step <= ticks * seconds:
+            if NEARLY * ticks * seconds < step <= ticks * seconds and name not in SHORT:
                 what = f"a counter of {name}" if name.endswith("bits") else f"a {name}"
                 return (
                     f"; {what} begins anew after {ticks * seconds:.9g} s, but here more is "

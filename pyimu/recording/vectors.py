@@ -12,9 +12,12 @@ from pyimu.recording.guess.numbers import time_unit
 from pyimu.recording.naming.name import named
 
 
-def triad_map(names: Sequence[str], group: str, unit: str) -> dict[str, str]:
-    """What a column map says of the three columns ``names`` of a vector, x first."""
-    return {name: f"{group}_{a} [{unit}]" for name, a in zip(names, XYZ, strict=True)}
+def triad_map(names: Sequence[str], group: str, unit: str | Sequence[str]) -> dict[str, str]:
+    """What a column map says of the three columns ``names`` of a vector, x first, of one unit or of
+    one each.
+    """
+    units = [unit] * 3 if isinstance(unit, str) else unit
+    return {n: f"{group}_{a} [{u}]" for n, a, u in zip(names, XYZ, units, strict=True)}
 
 
 def unnamed(reader: Reader, word: str, width: int) -> list[str] | None:

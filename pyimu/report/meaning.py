@@ -15,12 +15,12 @@ MEANING = {
     "coning": "it turns far between two samples: a higher sample rate would show how",
     "crabbing": "a vehicle moves askew for seconds, by an angle that positions show",
     "constant_channel": "one value all the time: is the axis dead, or not connected?",
-    "counter_wrapped": "the times began anew, as those of a counter, a day or a week do: they run "
-    "on where they did",
+    "counter_wrapped": "the times began anew, as those of a counter, a minute or a day do: they "
+    "run on where they did",
     "counts": "whole numbers alone: are these counts? A column map can give the unit of one",
     "damaged": "the file is damaged; what can be read of it was read",
     "dropouts": "the logger lost messages in these spans",
-    "end_left_out": "lines at the end that are no whole rows, a cut one or a remark: left out",
+    "end_left_out": "lines at the end that are no samples, a cut one, a remark or means: left out",
     "even_turn": "what looks like a rest at the start was an even turn, or may be one",
     "filled_in": "rows on a smooth curve between others that scatter: no samples, and left out",
     "force_unit": "gravity is too large by a unit's factor: m/s^2 or mg where g is stated, cm/s^2",

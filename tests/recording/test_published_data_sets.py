@@ -11,7 +11,7 @@ from turned_logs import G, H, N, agrees, by_its_map, rows, turned, written
 
 from pyimu import inspect, read_recording
 from pyimu.errors import UserError
-from pyimu.recording.formats.doubles import is_doubles
+from pyimu.recording.formats.packed import packing_of
 from pyimu.recording.log import read_reference
 
 FRD = np.array([1.0, -1.0, -1.0])
@@ -104,7 +104,7 @@ def test_increments_in_binary_rows(log, tmp_path):
     table.astype("<f8").tofile(tmp_path / "unit.bin")
     agrees(by_its_map(tmp_path / "unit.bin", tmp_path), log)
     (tmp_path / "other.bin").write_bytes(np.random.default_rng(1).bytes(56 * 40))
-    assert not is_doubles(tmp_path / "other.bin")
+    assert packing_of(tmp_path / "other.bin") is None
 
 
 def test_arrays_of_three_axes_are_named(tmp_path):

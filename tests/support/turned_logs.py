@@ -2,6 +2,7 @@
 
 import numpy as np
 from rolling import rolls
+from scipy.spatial.transform import Rotation
 
 from pyimu import inspect, read_recording
 from pyimu.units import STANDARD_GRAVITY
@@ -18,6 +19,22 @@ def turned():
     noise = rng.standard_normal((2, N, 3))
     shaken = np.outer(0.3 * np.sin(7 * time), [1, 0, 0])
     return time, gyro + 1e-3 * noise[0], G * up + shaken + 0.02 * noise[1]
+
+
+def tumbled():
+    """The same of a body that rolls, pitches and yaws, so that no axis of the gyro stands still."""
+    rng = np.random.default_rng(12)
+    time = H * np.arange(N)
+    step = H / 16
+    fine = step * np.arange(16 * N)
+    phase = 2 * np.pi * np.outer(fine, [0.31, 0.23, 0.17]) + [0, 1, 2]
+    rate = np.sin(phase) * [1.6, 1.1, 0.9]
+    attitude, up = Rotation.identity(), np.empty((N, 3))
+    for k, turns in enumerate(Rotation.from_rotvec(rate * step).as_matrix().reshape(N, 16, 3, 3)):
+        up[k] = attitude.inv().apply([0.0, 0.0, 1.0])
+        attitude = attitude * Rotation.from_matrix(np.linalg.multi_dot(list(turns)))
+    noise = rng.standard_normal((2, N, 3))
+    return time, rate[::16] + 1e-3 * noise[0], G * up + 0.02 * noise[1]
 
 
 def rows(*columns, by=",", form="{:.9g}"):

@@ -31,6 +31,7 @@ from pyimu.recording.formats.prefixes import behind, without_prefixes
 from pyimu.recording.formats.sections import Sections, sections
 from pyimu.recording.formats.thousands import without_marks
 from pyimu.recording.formats.told import HEAD, Layout, told_from
+from pyimu.recording.formats.whole_names import with_whole_names
 from pyimu.recording.naming.name import named
 
 UNCLOSED = "a quotation mark is not closed, so that the cells behind it are one"
@@ -66,7 +67,7 @@ def layout_of(path: Path, topic: str = "") -> Layout:
     Raises UserError for what is no text, for names of which a quotation mark is left open, and for
     a topic that is not there.
     """
-    head = list(islice(lines(path), HEAD))
+    head = with_whole_names(list(islice(lines(path), HEAD)))
     if not any(line.strip() for line in head):
         raise UserError(f"{path}: is empty")
     if any("\r" in line.rstrip("\r\n") for line in head[:1]):

@@ -25,6 +25,8 @@ BLOCK = 1 << 20
 
 CARRIAGE = "its lines end with a carriage return alone; have them end with a line feed"
 
+NOVATEL = "is a binary log of NovAtel's; log RAWIMUSXA (or RAWIMUXA), or export that as ASCII"
+
 SIGNS = {
     b"PK\x03\x04": "is a ZIP archive or a workbook; unpack it, or save its sheet as CSV",
     b"\xd0\xcf\x11\xe0": "is a workbook of Excel; save its sheet as CSV",
@@ -34,6 +36,13 @@ SIGNS = {
     b"PAR1": "is Parquet; its name must end in .parquet then",
     b"\x93NUMPY": "is an array of NumPy; its name must end in .npy then",
     b"ULog": "is a log of PX4; its name must end in .ulg then",
+    b"#ROSBAG": "is a bag of ROS 1; its name must end in .bag then",
+    b"\x89MCAP": "is MCAP; its name must end in .mcap then",
+    b"\xaaD\x12": NOVATEL,
+    b"\xaaD\x13": NOVATEL,
+    b"\xb5b": "is binary UBX of u-blox; take a table of its ESF-RAW or ESF-MEAS messages",
+    b"\xfa\xff": "is binary of Xsens; export it as text, in MT Manager or by the SDK",
+    b"Obj\x01": "is Avro, as Empatica's EmbracePlus writes it; make a CSV or Parquet of it",
 }
 """How other files begin, and what is to be done with one that is called as a text."""
 
@@ -81,11 +90,15 @@ def _first_bytes(path: Path) -> bytes:
         return b""
 
 
+def sign_of(path: Path) -> str | None:
+    """What a file is by its first bytes, and what is to be done with it; None of any other."""
+    first = _first_bytes(path)
+    return next((does for sign, does in SIGNS.items() if first.startswith(sign)), None)
+
+
 def _is_no_text(path: Path, why: str) -> UserError:
     """What is said of a file that is no text: what it is, where its first bytes tell, else why."""
-    first = _first_bytes(path)
-    does = next((does for sign, does in SIGNS.items() if first.startswith(sign)), why)
-    return UserError(f"{path}: {does}")
+    return UserError(f"{path}: {sign_of(path) or why}")
 
 
 @contextmanager

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from pyimu.errors import Finding
+from pyimu.errors import Finding, UserError
 from pyimu.recording.formats.bodies import WISDM
 from pyimu.recording.formats.reader import Columns, Reader, ReaderOver
 from pyimu.recording.naming.name import named
@@ -46,12 +46,16 @@ class OneUnitReader(ReaderOver):
     _left_out: list[int] = field(default_factory=list, compare=False, repr=False)
 
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
-        self._left_out[:] = [0]
+        """Raises UserError where no row is of that unit."""
+        self._left_out[:], seen = [0], False
         for columns, share in self.reader.batches([*positions, self.at], long):
             *columns, number = columns
             own = number == self.unit
             self._left_out[0] += int(np.count_nonzero(~own))
+            seen = seen or bool(own.any())
             yield [column[own] for column in columns], share
+        if not seen:
+            raise UserError(f"{self.path}: no row has {self.unit} as its {self.header[self.at]}")
 
     def at_end(self) -> tuple[Finding, ...]:
         detail = {"unit": self.unit, "column": self.header[self.at]}
@@ -74,20 +78,29 @@ class OneUnitReader(ReaderOver):
         return self.reader.place(index)
 
 
-def with_one_unit(reader: Reader) -> Reader:
-    """``reader`` with the samples of the first of its units, where a table has those of several."""
+def with_one_unit(reader: Reader, wanted: str = "") -> Reader:
+    """``reader`` with the samples of one of its units, where a table has those of several: that
+    with the number ``wanted``, the first where none is named.
+    """
+    at = unit_column(reader)
+    if at is None:
+        return reader
+    first = next(reader.batches([at], at))[0][0][0]
+    return OneUnitReader(reader, at, int(wanted) if wanted.isdigit() else int(first))
+
+
+def unit_column(reader: Reader) -> int | None:
+    """The position of the column that numbers the units of a table with several, else None."""
     names = set(reader.header)
     known = [cell for cell, beside in NUMBERED if {cell, *beside} <= names]
     told = known or [cell for cell in reader.header if _is_number_of_unit(cell)]
     if not told or reader.header.index(told[0]) not in reader.numeric():
-        return reader
+        return None
     at = reader.header.index(told[0])
     columns, _ = next(reader.batches([at], at), ([np.zeros(0)], 1.0))
     numbers, counts = np.unique(columns[0], return_counts=True)
     several = (len(numbers) > 1 or told[0] == PERSON) and np.array_equal(numbers, np.round(numbers))
-    if not several or not (known or _come_in_turn(columns[0], counts)):
-        return reader
-    return OneUnitReader(reader, at, int(columns[0][0]))
+    return at if several and (known or _come_in_turn(columns[0], counts)) else None
 
 
 def _is_number_of_unit(cell: str) -> bool:

@@ -1,7 +1,7 @@
 """Numbers that are written otherwise than programs read them: with their unit in the cell
 (``9.81 m/s2``), with the minus sign of printers, in hexadecimal digits, with Fortran's exponent,
-with decimal commas between commas or beside decimal points, or several in a cell as a list
-(``"[0.1, 0.2, 9.8]"``).
+with decimal commas between commas or beside decimal points, several in a cell as a list
+(``"[0.1, 0.2, 9.8]"``), or as a spreadsheet's formula for a text (``="0.1"``).
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ MINUS = "\u2212"
 _MINUS = re.compile(rf"{MINUS}(?=\.?\d)")
 _FORTRAN = re.compile(r"(?<![\w.])([-+]?(?:\d+\.?\d*|\.\d+))[dD]([-+]\d{1,3})(?![\w.])")
 _HEXADECIMAL = re.compile(r"(?<![\w.:-])0[xX]([0-9A-Fa-f]{1,8})(?![\w.:-])")
+_FORMULA = re.compile(r'"=""([^"]*)"""|="([^"]*)"')
 _WITH_UNIT = re.compile(
     r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\W\d_][^\s,;]*|[°º%/][^\s,;]*)\s*"
 )
@@ -57,6 +58,7 @@ def plain_numbers(lines: Sequence[str]) -> Plain | None:
     rows = [line.rstrip("\r\n") for line in lines if line.strip() and not is_comment(line)]
     tail = rows[len(rows) // 2 :]
     for pattern, by, said in (
+        (_FORMULA, _text, 'texts as formulas (="0.1")'),
         (_FORTRAN, r"\1E\2", "exponents with D"),
         (_MINUS, "-", "the minus sign of printers"),
         (_HEXADECIMAL, lambda match: str(int(match[1], 16)), "numbers in hexadecimal digits"),
@@ -64,6 +66,12 @@ def plain_numbers(lines: Sequence[str]) -> Plain | None:
         if share(pattern.search(row) is not None for row in tail) >= SHARE / 2:
             return Plain(_substitution(pattern, by), said)
     return _with_units(tail) or _with_lists(tail) or _with_commas(rows) or _with_two_marks(tail)
+
+
+def _text(formula: re.Match[str]) -> str:
+    """The text of a formula, in quotation marks where it may have a separator in it."""
+    text = formula[1] or formula[2] or ""
+    return f'"{text}"' if set(SEPARATORS) & set(text) else text
 
 
 def _substitution(pattern: re.Pattern[str], by: str | Callable[[re.Match[str]], str]) -> Rewrite:

@@ -20,10 +20,15 @@ _COLOUR = re.compile(r"\x1b\[[\d;]*[A-Za-z]")
 _ESP = re.compile(r"[EWIDV] \((\d+)\) [^:]{1,40}: ")
 _TIME = r"\d{1,2}:\d{2}:\d{2}(?:[.,:]\d{1,9})?"
 _DATE = r"\d{4}[-/]\d{1,2}[-/]\d{1,2}[ T]|\d{1,2}[-/.]\d{1,2}[-/.]\d{4} "
+_WEEKDAY = r"(?:Mon|Tue|Wed|Thu|Fri|Sat|Sun) [A-Z][a-z]{2} +\d{1,2} "
+"""Tera Term's, whose year stands behind the time."""
 _LABELS = re.compile(r"['\"]?[A-Za-z_][\w ]*['\"]?\s*[:=]")
 _NUMBER = r"(?!-\d{4}[,;])-?\.?\d"
 """How a row of numbers begins; ``-0500`` is a time zone's."""
-_STAMP = re.compile(rf"\[?((?:{_DATE})?{_TIME})(?:\] *| *-?> *| +)(?={_NUMBER}|{_LABELS.pattern})")
+_STAMP = re.compile(
+    rf"\[?((?:{_DATE}|(?<=\[){_WEEKDAY})?{_TIME}(?: \d{{4}}(?=\]))?)(?:\] *| *-?> *| +)"
+    rf"(?={_NUMBER}|{_LABELS.pattern})"
+)
 _ARROW = re.compile(rf"\s*{_TIME} *->")
 
 
@@ -59,7 +64,7 @@ def _with_column(line: str) -> str:
         return line
     rest = line[match.end() :]
     if _LABELS.match(rest):
-        return f"{match[1].split()[-1].rpartition('T')[2]} -> {rest}"
+        return f"{re.findall(_TIME, match[1])[-1]} -> {rest}"
     by = max(",;\t", key=rest.count)
     return f"{match[1]}{by}{rest}"
 

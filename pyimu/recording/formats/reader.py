@@ -40,6 +40,8 @@ class Reader(ABC):
     words: tuple[str, ...] = ()
     in_memory = False
     """Whether it is no file, so that no command can look into it."""
+    is_sheet = False
+    """Whether it is a table in text, which may have sums and means below its samples."""
 
     @abstractmethod
     def batches(self, positions: Sequence[int], long: int) -> Iterator[tuple[Columns, float]]:
@@ -115,6 +117,10 @@ class ReaderOver(Reader):
     @property
     def in_memory(self) -> bool:  # type: ignore[override]
         return self.reader.in_memory
+
+    @property
+    def is_sheet(self) -> bool:  # type: ignore[override]
+        return self.reader.is_sheet
 
     @property
     def skipped(self) -> tuple[str, ...]:  # type: ignore[override]

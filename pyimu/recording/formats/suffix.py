@@ -18,13 +18,15 @@ from pyimu.errors import UserError
 from pyimu.files import check_regular, exists, shortened, whole
 from pyimu.recording.formats.bag import BagReader
 from pyimu.recording.formats.dataflash import DataflashReader, is_dataflash
-from pyimu.recording.formats.doubles import DoublesReader, is_doubles
 from pyimu.recording.formats.hdf5 import Hdf5Reader
 from pyimu.recording.formats.json_rows import JsonReader
 from pyimu.recording.formats.layout import MESSAGES, NO_TOPICS
+from pyimu.recording.formats.lines import sign_of
 from pyimu.recording.formats.mat import MatReader
 from pyimu.recording.formats.numpy_arrays import NpyReader, NpzReader
+from pyimu.recording.formats.one_unit import unit_column
 from pyimu.recording.formats.oxts import OxtsReader, oxts_in
+from pyimu.recording.formats.packed import EXAMPLE, PackedReader, Packing, packing_of
 from pyimu.recording.formats.parquet import ParquetReader
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.text import CsvReader
@@ -87,10 +89,13 @@ WITH_TOPICS = (BagReader, UlogReader, DataflashReader)
 """Readers of files that hold more than one stream of samples."""
 
 
-def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
+def open_reader(
+    path: Path, topics: Mapping[str, str] | None = None, packing: Packing | None = None
+) -> Reader:
     """Open the file ``path`` with the reader of its suffix.
 
-    ``topics`` names a bag's topics, by the keys "imu" and "temperature".
+    ``topics`` names a bag's topics, by the keys "imu" and "temperature"; ``packing`` says what the
+    rows are of a file of binary numbers, whatever it is called.
 
     Raises UserError for a file that is missing or none of these, and for topics of a file that has
     none.
@@ -104,18 +109,41 @@ def open_reader(path: Path, topics: Mapping[str, str] | None = None) -> Reader:
         raise UserError(f"{path}: a folder, give the files in it{_tables_in(path)}")
     if not folder:
         check_regular(path)
+        if packing is not None:
+            return PackedReader.open(path, packing)
+        if not path.name.lower().endswith(tuple(READERS)) and (sign := sign_of(path)):
+            raise UserError(f"{path}: {sign}")
     reader = BagReader if folder else _by_suffix(path, READERS, "rename text to .txt")
     if reader is DataflashReader and path.suffix.lower() == ".log" and not is_dataflash(path):
         reader = CsvReader
-    if reader is DataflashReader and is_doubles(path) and not is_dataflash(path):
-        reader = DoublesReader
+    if reader is DataflashReader and not is_dataflash(path):
+        return _packed(path)
     if reader in WITH_TOPICS:
         return reader.open(path, topics or {})
     if topics and reader is CsvReader and set(topics) == {"imu"}:
-        return CsvReader.open(path, topics["imu"])
+        return _of_topic(path, topics["imu"])
     if topics:
         raise UserError(NO_TOPICS.format(path))
     return reader.open(path)
+
+
+def _packed(path: Path) -> Reader:
+    """A ``.bin`` that is no dataflash log. Raises UserError where nothing tells what it is."""
+    told = packing_of(path)
+    if told is None:
+        if sign := sign_of(path):
+            raise UserError(f"{path}: {sign}")
+        raise UserError(
+            f"{path}: no dataflash log, and its bytes are no rows of a time and floating-point "
+            f"numbers; of other rows a column map says what they are: {EXAMPLE}"
+        )
+    return PackedReader.open(path, told)
+
+
+def _of_topic(path: Path, topic: str) -> Reader:
+    """A table with the rows of one of its sensors, which a word names, or a column numbers."""
+    whole = CsvReader.open(path) if topic.isdigit() else None
+    return CsvReader.open(path, topic) if whole is None or unit_column(whole) is None else whole
 
 
 def _tables_in(folder: Path) -> str:

@@ -17,15 +17,12 @@ from pyarrow import csv as pacsv
 
 from pyimu.errors import Finding, UserError
 from pyimu.recording.formats.cells import MISSING, is_number, padded
-from pyimu.recording.formats.clock_times import ClockTimes
+from pyimu.recording.formats.clock_times import ClockTimes, is_clock_time
+from pyimu.recording.formats.ends import LAST
 from pyimu.recording.formats.layout import UNCLOSED, layout_of
 from pyimu.recording.formats.lines import UTF_16, Body, is_comment, is_gzip, lines, opened
 from pyimu.recording.formats.reader import Columns, Reader
 from pyimu.recording.formats.told import HEAD, Layout
-
-LAST = 20
-"""Lines behind the last whole row, at most, that are no rows: one cut off, and remarks. With more
-of them the table is not what it was taken for."""
 
 BROKEN = 0.01
 """Share of the rows that may be no whole ones, as where a line to a serial port lost letters; with
@@ -36,13 +33,14 @@ more of them the table is not what it was taken for."""
 class CsvReader(Reader):
     """A table in text, plain or gzipped, as ``layout`` says; ``header`` are its columns' names.
 
-    Lines of comment are left out wherever they stand, and lines at the end that are no whole rows:
-    a logger that lost its power leaves one, others write a last remark. So are few rows of another
-    length between whole ones (``BROKEN``).
+    Lines of comment are left out wherever they stand, and lines at the end that are no samples: a
+    logger that lost its power leaves one, others write a last remark, sheets have sums and means
+    below. So are few rows of another length between whole ones (``BROKEN``).
     """
 
     path: Path
     header: list[str]
+    is_sheet = True
     layout: Layout = field(default_factory=Layout)
     _ended: list[Finding] = field(default_factory=list, compare=False, repr=False)
     _broken: list[Finding] = field(default_factory=list, compare=False, repr=False)
@@ -117,7 +115,7 @@ class CsvReader(Reader):
                 return
             except (pa.ArrowException, OSError) as error:
                 known = len(self._broken + self._again)
-                end = self._explain(positions, done)
+                end = self._explain(positions, long, done)
                 if cleaned and end == stop and known == len(self._broken + self._again):
                     reason = (str(error).splitlines() or [type(error).__name__])[0]
                     raise UserError(f"{self.path}: cannot be read as CSV ({reason})") from None
@@ -247,7 +245,7 @@ class CsvReader(Reader):
             and re.fullmatch(r"\d{16,19}", cells[position].strip()) is not None
         )
 
-    def _explain(self, positions: Sequence[int], good: int) -> int | None:
+    def _explain(self, positions: Sequence[int], long: int, good: int) -> int | None:
         """Raise UserError for the first wrong cell or row after ``good`` rows.
 
         A cell is wrong where it is not a number, a row where it is too long or too short and whole
@@ -258,9 +256,7 @@ class CsvReader(Reader):
         for number, (row, line) in enumerate(rows, good):
             cells = self.layout.cells(line)
             if len(cells) != len(self.header):
-                last = [line, *(text for _, text in islice(rows, LAST))]
-                if number and len(last) <= LAST and not any(map(self._is_whole, last)):
-                    self._ended[:] = [Finding("end_left_out", "", len(last), {"row": row})]
+                if number and self._is_end(row, [line, *_next(rows)], positions, long):
                     return row
                 if self.layout.is_open(line):
                     raise UserError(f"{self.path}: row {row}: {UNCLOSED}")
@@ -278,6 +274,8 @@ class CsvReader(Reader):
                 if position in self.layout.clocks:
                     continue
                 if not is_number(cells[position], self.layout.decimal):
+                    if number and self._is_end(row, [line, *_next(rows)], positions, long):
+                        return row
                     place = f"{self.path}: row {row}, column {self.header[position]}"
                     apart = re.fullmatch(
                         r"[-+]?\d{1,3}([,.' ])\d{3}(\1\d{3})*(?!\1)[,.]\d+", cells[position]
@@ -321,9 +319,32 @@ class CsvReader(Reader):
             return len(self.layout.cells(line.decode("utf-8", "replace"))) == width
         return not line.strip() or line.rstrip(b"\r").count(separator) == width - 1
 
-    def _is_whole(self, line: str) -> bool:
-        """Whether a line has a cell for each column, or more."""
-        return len(self.layout.cells(line)) >= len(self.header)
+    def _is_end(self, row: int, last: list[str], positions: Sequence[int], long: int) -> bool:
+        """Whether the ``last`` lines, from that of ``row`` on, are few and no samples; that they
+        are left out is among the findings then.
+        """
+        if len(last) > LAST or any(self._is_sample(line, positions, long) for line in last):
+            return False
+        self._ended[:] = [Finding("end_left_out", "", len(last), {"row": row})]
+        return True
+
+    def _is_sample(self, line: str, positions: Sequence[int], long: int) -> bool:
+        """Whether a line has a time and numbers, or more cells than there are columns."""
+        cells, decimal = self.layout.cells(line), self.layout.decimal
+        if len(cells) != len(self.header):
+            return len(cells) > len(self.header)
+        if long in self.layout.clocks:
+            timed = is_clock_time(cells[long])
+        else:
+            timed = cells[long].strip() not in MISSING
+        return timed and all(
+            p in self.layout.clocks or is_number(cells[p], decimal) for p in positions
+        )
+
+
+def _next(rows: Iterator[tuple[int, str]]) -> Iterator[str]:
+    """The next lines, one more than an end has with the one before them."""
+    return (line for _, line in islice(rows, LAST))
 
 
 def _held_by_arrow(block: bytes) -> pa.BufferReader:

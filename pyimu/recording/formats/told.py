@@ -89,13 +89,19 @@ class Layout:
 
     def is_open(self, line: str) -> bool:
         """Whether a quotation mark that begins a cell of the line is not closed in it."""
-        if self.separator == " ":
-            return False
+        return self.separator != " " and self._error(line) == OPEN
+
+    def is_whole(self, line: str) -> bool:
+        """Whether quotation marks in the line stand around whole cells alone."""
+        return not self._error(line)
+
+    def _error(self, line: str) -> str:
+        """What the standard library's reader has against a line, nothing of a good one."""
         try:
             next(csv.reader([line], delimiter=self.separator, strict=True), None)
         except csv.Error as error:
-            return str(error) == OPEN
-        return False
+            return str(error)
+        return ""
 
 
 def told_from(head: Sequence[str]) -> Layout:

@@ -12,7 +12,7 @@ from pyimu.recording.guess.first_rows import Numbers
 from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.numbers import SECONDS, STATED, UnitGuess, time_unit
 from pyimu.recording.naming.name import Name, named
-from pyimu.recording.naming.words import COUNTERS, INERTIAL, NUMBERS, PERIODS, TIMES, TRUTHS
+from pyimu.recording.naming.words import COUNTERS, INERTIAL, NUMBERS, TRUTHS
 
 CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
 """Of a column of them."""
@@ -43,7 +43,7 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
             disordered.append((k, values, guess))
     candidates = candidates or disordered
     if not candidates:
-        found.rate = rate or reader.rate or _by_periods(found, reader, numbers)
+        found.rate = rate or reader.rate
         return None if found.rate is None else 1 / found.rate
     k, values, guess = min(
         candidates,
@@ -82,29 +82,6 @@ def _rising(reader: Reader, numbers: Numbers) -> list[int]:
 def array_of(cell: str) -> str:
     """The array of a file of arrays whose column a ``cell`` is; of a table's it is none."""
     return cell.rpartition("[")[0]
-
-
-def _by_periods(found: Proposal, reader: Reader, numbers: Numbers) -> float | None:
-    """The mean rate by a column with the time from row to row, None without one, or where its unit
-    is not known.
-    """
-    for k in numbers.positions:
-        name = named(reader.header[k])
-        if name.axis or not name.words or not set(name.words) <= PERIODS | TIMES:
-            continue
-        if not set(name.words) & PERIODS:
-            continue
-        steps = numbers.of([k]).astype(float)
-        steps = steps[np.isfinite(steps)]
-        if not len(steps) or steps.min() <= 0:
-            continue
-        seen = _time_guess(name, np.cumsum(steps))
-        if seen.unit in STATED and seen.value is None:
-            rate = float(f"{1 / (np.mean(steps) * STATED[seen.unit]):.6g}")
-            cell = reader.header[k]
-            found.notes.append(f"{cell} is the time from row to row, in {seen.unit}: {rate:g} Hz")
-            return rate
-    return None
 
 
 def _mean_rate(values: np.ndarray) -> float | None:

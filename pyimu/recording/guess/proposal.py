@@ -189,10 +189,10 @@ def _vector(
     force: np.ndarray | None,
     period: float | None,
 ) -> None:
-    guess = _unit(group, picked, numbers, force, period)
-    if group == "mag" and guess.unit is None:
+    guesses = _own_units(group, picked) or [_unit(group, picked, numbers, force, period)] * 3
+    if group == "mag" and guesses[0].unit is None:
         cells = ", ".join(name.cell for _, name in picked)
-        found.notes.append(f"{cells} may be the magnetometer: {guess.why}")
+        found.notes.append(f"{cells} may be the magnetometer: {guesses[0].why}")
         return
     found.add(
         [
@@ -205,9 +205,21 @@ def _vector(
                 guess.sizes,
                 guess.choices,
             )
-            for axis, (_, name) in zip(XYZ, picked, strict=True)
+            for axis, (_, name), guess in zip(XYZ, picked, guesses, strict=True)
         ]
     )
+
+
+def _own_units(group: str, picked: list[tuple[int, Name]]) -> list[UnitGuess]:
+    """The units that the header states of axes that differ in it: no size of the vector tells any
+    then. None of axes in one unit, or of one or two that are silent beside the others.
+    """
+    units = [name.unit for _, name in picked]
+    if len(set(units) - {None}) < 2:
+        return []
+    why = "the header says " + ", ".join(name.said or "nothing" for _, name in picked)
+    each = [u if u is not None and fits(u, group) else None for u in units]
+    return [UnitGuess(unit, why) for unit in each]
 
 
 def _unit(

@@ -89,6 +89,8 @@ def text_of(proposals: Sequence[Proposal], given: MapGiven = MapGiven()) -> str:
         lines += ["", "[[file]]", *_entries(entry)]
     if first.topic and "topics" not in given.data:
         lines += ["", "[topics]", f"imu = {_value(first.topic)}"]
+    if "binary" in given.data:
+        lines += ["", "[binary]", *_entries(given.data["binary"])]
     if "topics" in given.data:
         lines += ["", "[topics]", *_entries(given.data["topics"])]
     with_lines = {offer.note for p in proposals for offer in p.offers}

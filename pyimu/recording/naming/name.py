@@ -16,10 +16,12 @@ from pyimu.recording.naming.words import (
     LETTERS,
     MORE_TIMES,
     PAIRS,
+    PERIODS,
     ROLLS,
     SAID_OF_AXES,
     STEPS,
     STRONG,
+    SUMMED,
     TEMPERATURES,
     TICKS,
     TIMES,
@@ -31,6 +33,7 @@ from pyimu.recording.spelling import unit_of
 from pyimu.units import DEGREES, Unit, parse
 
 _AXIS_FIRST = re.compile(r"([xyz])(gyro?s?|gyroscope|acce?l?|acceleration|mag)")
+_DELTA = re.compile("[\u0394\u2206]")
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 
 
@@ -54,7 +57,8 @@ class Name:
         ``T(°)``; ``Chip Time()`` is one, and ``ms``.
         """
         other = self.unit not in (None, "1") and self.clock is None
-        if self.axis or other or set(self.words) & STEPS:
+        steps = set(self.words) & STEPS and self.words[: len(SUMMED)] != SUMMED
+        if self.axis or other or steps:
             return False
         if len(self.words) == 1 and self.words[0] in UNITS_ALONE:
             return True
@@ -95,7 +99,7 @@ def _same(one: Unit, other: Unit) -> bool:
 
 def named(cell: str) -> Name:
     """What a header's ``cell`` says."""
-    text, unit, said = cell.strip(), None, ""
+    text, unit, said = _DELTA.sub("delta ", cell.strip()), None, ""
     stated = in_brackets(text)
     if stated is not None and not stated[1]:
         text, unit = stated[0], "1"
@@ -106,7 +110,7 @@ def named(cell: str) -> Name:
     text = in_english(text)
     words = [word.casefold() for word in WORD.findall(text)]
     if unit is None and not said:
-        words, unit = in_words(words, {*"xyz", *ROLLS, *TIMES, *TEMPERATURES})
+        words, unit = in_words(words, {*"xyz", *ROLLS, *TIMES, *PERIODS, *TEMPERATURES})
     if unit is None and not said and words and words[-1] in TICKS:
         unit = TICKS[words[-1]]
     if unit is None and not said and len(words) == 1:

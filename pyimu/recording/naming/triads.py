@@ -48,11 +48,12 @@ class Triad:
     score: int
 
     @property
-    def unit(self) -> str | None:
-        """The unit that all three state, None where it is none of such a vector."""
-        units = {name.unit for name in self.names}
-        unit = units.pop() if len(units) == 1 else None
-        return unit if unit is not None and fits(unit, self.group) else None
+    def units(self) -> tuple[str, ...] | None:
+        """The units that the three state, which may differ, None where one states none, or one that
+        no such vector has.
+        """
+        fit = _fit(self.names, self.group)
+        return tuple(name.unit or "" for name in self.names) if fit else None
 
     @property
     def sensor(self) -> tuple[str, ...]:

@@ -46,6 +46,9 @@ PERIODS = {"dt", "deltat", "delta", "diff", "interval", "period", "elapsed"}
 STEPS = {"delta", "diff", "interval"}
 """Words beside those of times for the time from row to row."""
 
+SUMMED = ("times", "of", "the", "steps")
+"""How a column is called that is made of these: it is one of times."""
+
 COUNTERS = {"tick", "ticks", "counter", "count"}
 """Words beside those of times for one that counts in a unit of its own, such as DJI's
 ``Clock:Tick#``."""
