@@ -23,7 +23,7 @@ from pyimu.recording.angles import SEQUENCE
 from pyimu.recording.clock import RATES
 from pyimu.recording.columns import GROUPS, XYZ
 from pyimu.recording.counts import Scale, finite_number, read_scales
-from pyimu.recording.formats.packed import Packing, packing_in
+from pyimu.recording.packing import Packing, packing_in
 from pyimu.units import UnitError, convert, did_you_mean
 
 _UNIT = re.compile(r" ?\([^()]*\)$")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from itertools import islice
 
@@ -182,15 +183,32 @@ def nuscenes(reader: Reader) -> ForeignMap | None:
     return ForeignMap(columns=columns | triad_map(force, "accel", "m/s^2"))
 
 
+_PX4 = re.compile(r"(.*?)(gyro_rad|accelerometer_m_s2)(?:\[(\d)\]|\.0?(\d))")
+"""Elements of ``sensor_combined`` in ulog2csv's tables, and in PlotJuggler's behind its name."""
+
+
 def px4_table(reader: Reader) -> ForeignMap | None:
-    """A table of PX4's ``sensor_combined``, as ulog2csv of pyulog writes it (SensorCombined.msg):
-    us, rad/s, m/s^2, forward-right-down.
+    """A table of PX4's ``sensor_combined`` (SensorCombined.msg), as ulog2csv of pyulog or
+    PlotJuggler writes it: us, or s in ``__time``, rad/s, m/s^2, forward-right-down.
     """
-    rate, force = ([f"{n}[{k}]" for k in range(3)] for n in ("gyro_rad", "accelerometer_m_s2"))
-    if not {"timestamp", *rate, *force} <= set(reader.header):
-        return None
-    columns = {"timestamp": "time [us]"} | triad_map(rate, "gyro", "rad/s")
-    return ForeignMap(columns=columns | triad_map(force, "accel", "m/s^2"), body=BODY["frd"])
+    found: dict[str, dict[tuple[str, str], str]] = {}
+    for cell in reader.header:
+        if match := _PX4.fullmatch(cell):
+            found.setdefault(match[1], {})[match[2], match[3] or match[4]] = cell
+    for stem, cells in found.items():
+        times = {f"{stem}timestamp": "us", "timestamp": "us", "__time": "s"}
+        time = next((t for t in times if t in reader.header), None)
+        if time is None or len(cells) != 6 or stem and "sensor_combined" not in stem:
+            continue
+        rate, force = ([cells.get((n, str(k)), "") for k in range(3)] for n in _PX4_NAMES)
+        columns = {time: f"time [{times[time]}]"} | triad_map(rate, "gyro", "rad/s")
+        if all(rate) and all(force):
+            columns |= triad_map(force, "accel", "m/s^2")
+            return ForeignMap(columns=columns, body=BODY["frd"])
+    return None
+
+
+_PX4_NAMES = ("gyro_rad", "accelerometer_m_s2")
 
 
 def ardupilot_table(reader: Reader) -> ForeignMap | None:

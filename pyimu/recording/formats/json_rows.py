@@ -9,6 +9,7 @@ object in turn ``accel.x``.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -16,11 +17,14 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
-from pyimu.errors import UserError
+from pyimu.errors import Finding, UserError
 from pyimu.recording.formats.cells import MISSING, is_number
 from pyimu.recording.formats.clock_times import ClockTimes, is_clock_time
+from pyimu.recording.formats.json_kinds import OfKind, called, of_kind
 from pyimu.recording.formats.json_tables import table_in
+from pyimu.recording.formats.lines import LONGEST
 from pyimu.recording.formats.streams import StreamReader, reading
+from pyimu.recording.formats.told import NO_TOPICS
 
 LARGEST = 1 << 28
 """Bytes: all of it is taken apart at once, and takes a dozen times as much then."""
@@ -36,8 +40,12 @@ class JsonReader:
     """Opens logs in JSON; see the module."""
 
     @classmethod
-    def open(cls, path: Path) -> StreamReader:
-        """Raises UserError for a file that is no list of samples, or too large."""
+    def open(cls, path: Path, topic: str = "") -> StreamReader:
+        """Open a log, of samples of several sensors those of ``topic``.
+
+        Raises UserError for a file that is no list of samples, or too large, and for a topic that
+        is not there.
+        """
         size = path.stat().st_size
         if size > LARGEST:
             raise UserError(
@@ -48,7 +56,13 @@ class JsonReader:
             data = _parsed(path.read_bytes())
             table = table_in(data, path)
             rows = _rows(data) if table is None else table.rows
-            cells = [dict(_flat("", row, 0)) for row in rows]
+            kind = of_kind(rows, topic)
+            if topic and kind is None:
+                raise UserError(NO_TOPICS.format(path))
+            kind = kind or OfKind("", (), rows)
+            cells = [
+                {called(kind.word, name): v for name, v in _flat("", row, 0)} for row in kind.rows
+            ]
             names = dict.fromkeys(name for row in cells for name in row)
             if len(names) > MOST:
                 raise UserError(
@@ -63,7 +77,36 @@ class JsonReader:
                 )
             clocks = tuple(name for name, c in columns.items() if c is not None and c[1])
             rate = None if table is None else table.rate
-            return StreamReader(path, known, body=None, rate=rate, clocks=clocks)
+            return StreamReader(
+                path,
+                known,
+                _said(kind),
+                body=None,
+                rate=rate,
+                clocks=clocks,
+                word=kind.word,
+                words=kind.words,
+            )
+
+
+def _said(kind: OfKind) -> tuple[Finding, ...]:
+    detail = {"read_as": f"the samples of {kind.word}"}
+    return (Finding("layout", "", 1, detail),) if kind.word else ()
+
+
+def is_json(path: Path) -> bool:
+    """Whether a text, whatever it is called, is a list of objects, or has one on its first line
+    that has further ones or lists of them in it; flat ones are lines with labels.
+    """
+    try:
+        with path.open("rb") as file:
+            first = file.readline(LONGEST).strip()
+        if re.match(rb"\[\s*(\{|$)", first):
+            return True
+        data = json.loads(first) if first[:1] == b"{" and first[-1:] == b"}" else None
+    except (OSError, ValueError, RecursionError):
+        return False
+    return isinstance(data, dict) and any(isinstance(v, dict) for v in data.values())
 
 
 def _parsed(text: bytes) -> Any:

@@ -30,7 +30,7 @@ from pyimu.recording.formats.plain_numbers import Plain, plain_numbers
 from pyimu.recording.formats.prefixes import behind, without_prefixes
 from pyimu.recording.formats.sections import Sections, sections
 from pyimu.recording.formats.thousands import without_marks
-from pyimu.recording.formats.told import HEAD, Layout, told_from
+from pyimu.recording.formats.told import HEAD, NO_TOPICS, Layout, told_from
 from pyimu.recording.formats.whole_names import with_whole_names
 from pyimu.recording.naming.name import named
 
@@ -38,12 +38,6 @@ UNCLOSED = "a quotation mark is not closed, so that the cells behind it are one"
 
 FAR = 100_000
 """Lines among which a log of several kinds has each: satellites are logged from the start."""
-
-NO_TOPICS = (
-    "{}: has no topics, only ROS bags, ULog, dataflash and GnssLogger files do; leave [topics] out "
-    "of the column map"
-)
-"""What is said of a file that holds one table."""
 
 MESSAGES = (
     "of ROS's messages take the bag, or a table of them: rostopic echo -p, ros2 topic echo --csv; "

@@ -196,7 +196,9 @@ def _apart(
     """The rows of the gyro, or those of the sensor ``topic``, where each has its own."""
     filled = {kind: [_has(row, triad.positions) for row in rows] for kind, triad in vectors.items()}
     kinds = [kind for kind in KINDS if kind in filled and share(filled[kind]) > SEEN]
-    if not {"gyro", "accel"} <= set(kinds) or share(filled["gyro"]) > MOST:
+    if not {"gyro", "accel"} <= set(kinds):
+        return None
+    if share(filled["gyro"]) > MOST and not _are_of_others(filled["gyro"], rows):
         return None
     if topic and topic not in kinds:
         return None
@@ -215,6 +217,18 @@ def _apart(
 
     said = f"the rows with cells of the {own}"
     return Mixed(own, others, keeps, said, tuple(empty), joined=True)
+
+
+def _are_of_others(filled: Sequence[bool], rows: Sequence[Sequence[str]]) -> bool:
+    """Whether the rows that are not ``filled`` have a column of their own, as those of another
+    message of a bag have.
+    """
+    own = [row for row, has in zip(rows, filled, strict=True) if has]
+    rest = [row for row, has in zip(rows, filled, strict=True) if not has]
+    return len(rest) > 1 and any(
+        all(row[k] not in MISSING for row in rest) and all(row[k] in MISSING for row in own)
+        for k in range(len(rows[0]))
+    )
 
 
 def _has(row: Sequence[str], at: Iterable[int]) -> bool:

@@ -28,9 +28,12 @@ _BEHIND = r"(?=$|[\s,;|})\]A-Za-z°µ])"
 _WORDS = r"(?P<label>[A-Za-z_][\w./()\[\]°]*(?: (?![\[({][.\d])[\w./()\[\]°]+)*)"
 _QUOTE = "[\"']?"
 _LABEL = re.compile(rf"[\s,;|]*{_QUOTE}{_WORDS}{_QUOTE}\s*[:=]\s*(?P<open>[\[({{]\s*)?")
+_REMARK = r"(?: ?\([A-Za-z°µ%][^()]*\))"
 _BARE = re.compile(
-    rf"[\s,;|]*{_QUOTE}(?P<label>[A-Za-z_]\w*(?: [A-Za-z_]\w*)*){_QUOTE}\s*(?P<open>[\[({{])\s*"
+    rf"[\s,;|]*{_QUOTE}(?P<label>[A-Za-z_]\w*\.?(?: [A-Za-z_]\w*)*{_REMARK}?){_QUOTE}"
+    r"\s*(?P<open>[\[({])\s*"
 )
+_HEADING = re.compile(r"[\s,;|]*(?P<head>[A-Za-z_]\w*)\s*:\s*(?=[xyzXYZ]\s*[:=])")
 _VALUE = re.compile(rf"(?P<value>{NUMBER}){_BEHIND}")
 _NEXT = re.compile(rf"(?P<by>\s*[,;|]\s*|\s+)(?P<value>{NUMBER}){_BEHIND}(?!\s*[:=])")
 _CLOSE = re.compile(r"\s*[\])}]")
@@ -80,6 +83,8 @@ def _read(line: str) -> tuple[Pairs, list[str]] | None:
 
 def _item(line: str, at: int) -> tuple[int, Pairs, str] | None:
     """A label and what stands behind it, from ``at``: where it ends, its pairs and its pattern."""
+    heading = _HEADING.match(line, at)
+    above, at = ("", at) if heading is None else (heading["head"], heading.end())
     label = _LABEL.match(line, at)
     sign = "" if label is None else "[:=]"
     label = label or _BARE.match(line, at)
@@ -99,10 +104,12 @@ def _item(line: str, at: int) -> tuple[int, Pairs, str] | None:
     if word is not None and unit is not None:
         at, behind = word.end(), rf"\s*{re.escape(word[1])}(?=$|[\s,;|}}])"
     name = label["label"]
+    title = rf"[\s,;|]*{re.escape(above)}\s*:" if above else ""
     numbers = rf"({NUMBER})" + "".join(rf"{mark}({NUMBER})" for mark in marks)
     begins = rf"[\s,;|]*{_QUOTE}{re.escape(name)}{_QUOTE}\s*{sign}"
     around = (r"\s*[\[({]\s*", r"\s*[\])}]") if bracket else (r"\s*", "")
-    part = f"{begins}{around[0]}{numbers}{around[1] or _BEHIND}{behind}"
+    part = f"{title}{begins}{around[0]}{numbers}{around[1] or _BEHIND}{behind}"
+    name = f"{above} {name}".strip()
     each = _names(name, len(values)) if len(values) > 1 or bracket else [name]
     return at, [(n, v, unit) for n, v in zip(each, values, strict=True)], part
 
@@ -123,9 +130,14 @@ def _values(line: str, first: re.Match[str], within: bool) -> tuple[list[str], l
 
 
 def _names(label: str, count: int) -> list[str]:
-    """The names of the numbers of a vector: axes of three, places of others."""
+    """The names of the numbers of a vector: axes of three, places of others; a unit behind the name
+    stands behind the axes, too.
+    """
     if count == 3:
-        return [f"{_ALL_AXES.sub('', label) or label} {axis}" for axis in "xyz"]
+        remark = re.search(rf"{_REMARK}$", label)
+        behind = "" if remark is None else f" {remark[0].strip()}"
+        label = label if remark is None else label[: remark.start()]
+        return [f"{_ALL_AXES.sub('', label) or label} {axis}{behind}" for axis in "xyz"]
     return [label] if count == 1 else [f"{label}[{k}]" for k in range(count)]
 
 

@@ -145,7 +145,7 @@ def _unrolled(places: Mapping[int, int], width: int, by: str) -> Rewrite:
             flat = _LIST.sub(lambda match: by.join(_BETWEEN.split(match[1])), line)
             return flat.strip(_AROUND + ",")
         names = line.split(by)
-        if len(names) != width:
+        if len(names) != width or not line.strip():
             return line
         each = [
             [f"{n.strip()}[{i}]" for i in range(places.get(k, 0))] or [n]

@@ -37,6 +37,8 @@ class StreamReader(Reader):
     body: str | None = "frd"
     rate: float | None = None
     clocks: tuple[str, ...] = ()
+    word: str = ""
+    words: tuple[str, ...] = ()
 
     @property
     def header(self) -> list[str]:  # type: ignore[override]

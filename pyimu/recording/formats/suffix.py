@@ -19,19 +19,21 @@ from pyimu.files import check_regular, exists, shortened, whole
 from pyimu.recording.formats.bag import BagReader
 from pyimu.recording.formats.dataflash import DataflashReader, is_dataflash
 from pyimu.recording.formats.hdf5 import Hdf5Reader
-from pyimu.recording.formats.json_rows import JsonReader
-from pyimu.recording.formats.layout import MESSAGES, NO_TOPICS
+from pyimu.recording.formats.json_rows import JsonReader, is_json
+from pyimu.recording.formats.layout import MESSAGES
 from pyimu.recording.formats.lines import sign_of
 from pyimu.recording.formats.mat import MatReader
 from pyimu.recording.formats.numpy_arrays import NpyReader, NpzReader
 from pyimu.recording.formats.one_unit import unit_column
 from pyimu.recording.formats.oxts import OxtsReader, oxts_in
-from pyimu.recording.formats.packed import EXAMPLE, PackedReader, Packing, packing_of
+from pyimu.recording.formats.packed import PackedReader, packing_of
 from pyimu.recording.formats.parquet import ParquetReader
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.formats.text import CsvReader
 from pyimu.recording.formats.timed_array import TimedArrayReader, is_timed_array
+from pyimu.recording.formats.told import NO_TOPICS
 from pyimu.recording.formats.ulog import UlogReader
+from pyimu.recording.packing import EXAMPLE, Packing
 
 TEXTS = (
     ".csv",
@@ -118,10 +120,14 @@ def open_reader(
         reader = CsvReader
     if reader is DataflashReader and not is_dataflash(path):
         return _packed(path)
+    if reader is CsvReader and is_json(path):
+        reader = JsonReader
     if reader in WITH_TOPICS:
         return reader.open(path, topics or {})
     if topics and reader is CsvReader and set(topics) == {"imu"}:
         return _of_topic(path, topics["imu"])
+    if topics and reader is JsonReader and set(topics) == {"imu"}:
+        return JsonReader.open(path, topics["imu"])
     if topics:
         raise UserError(NO_TOPICS.format(path))
     return reader.open(path)

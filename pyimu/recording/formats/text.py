@@ -24,6 +24,9 @@ from pyimu.recording.formats.lines import UTF_16, Body, is_comment, is_gzip, lin
 from pyimu.recording.formats.reader import Columns, Reader
 from pyimu.recording.formats.told import HEAD, Layout
 
+SECOND = "'{}' is no number, and none is in the row: put a second table into a file of its own"
+"""What is said of a row of texts between rows of numbers."""
+
 BROKEN = 0.01
 """Share of the rows that may be no whole ones, as where a line to a serial port lost letters; with
 more of them the table is not what it was taken for."""
@@ -276,6 +279,8 @@ class CsvReader(Reader):
                 if not is_number(cells[position], self.layout.decimal):
                     if number and self._is_end(row, [line, *_next(rows)], positions, long):
                         return row
+                    if not any(is_number(c, self.layout.decimal) for c in cells if c.strip()):
+                        raise UserError(f"{self.path}: row {row}: {SECOND.format(cells[position])}")
                     place = f"{self.path}: row {row}, column {self.header[position]}"
                     apart = re.fullmatch(
                         r"[-+]?\d{1,3}([,.' ])\d{3}(\1\d{3})*(?!\1)[,.]\d+", cells[position]

@@ -11,6 +11,7 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from pyimu.recording.columns import UNITS
 from pyimu.recording.formats.cells import MISSING, is_number
@@ -31,6 +32,12 @@ FORMS = ((",", "."), (";", "."), ("\t", "."), ("|", "."), (" ", "."))
 
 COMMAS = ((";", ","), ("\t", ","), ("|", ","), (" ", ","), (",", ","))
 """The same with decimal commas; between commas such numbers stand in quotation marks."""
+
+NO_TOPICS = (
+    "{}: has no topics, only ROS bags, ULog, dataflash and GnssLogger files do; leave [topics] out "
+    "of the column map"
+)
+"""What is said of a file that holds one table."""
 
 OPEN = "unexpected end of data"
 """What the standard library's reader says of a line that ends within quotation marks."""
@@ -118,7 +125,7 @@ def told_from(head: Sequence[str]) -> Layout:
     width = _width([c for _, c in cells])
     start = _start([c for _, c in cells], width, form.decimal)
     first = cells[start][0] if start < len(cells) else rows[-1][0] + 1
-    named = [c for _, c in cells[:start] if len(c) > 1 and 2 * len(c) > width][-MOST_NAMES:]
+    named = _together([(k, c) for k, c in cells[:start] if len(c) > 1 and 2 * len(c) > width])
     if not named:
         above = [re.sub(r'^("?#|//|%)+\s*', "", line) for k, line in numbered if k < first]
         named = _names_above(above, form, width)
@@ -140,6 +147,16 @@ def told_from(head: Sequence[str]) -> Layout:
         bool(names and named),
         _clocks([c for _, c in cells[start:]], width),
     )
+
+
+def _together(rows: Sequence[tuple[int, list[str]]]) -> list[list[str]]:
+    """The last rows of names, by their lines: what a blank one parts from them is about the log."""
+    found = [row for _, row in rows[-1:]]
+    for (above, row), (below, _) in reversed(list(pairwise(rows))):
+        if below - above > 1 or len(found) == MOST_NAMES:
+            break
+        found.insert(0, row)
+    return found
 
 
 def _empty(rows: Sequence[Sequence[str]], width: int) -> list[int]:

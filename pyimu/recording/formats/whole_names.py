@@ -13,7 +13,7 @@ SEPARATORS = (",", ";", "\t", "|")
 
 def with_whole_names(lines: Sequence[str]) -> list[str]:
     """The first ``lines`` of a file; those that quotation marks hold together are one with blanks
-    between them, and empty ones behind it, so that all others keep their numbers.
+    between them, and empty ones before it, so that all others keep their numbers.
     """
     for separator in SEPARATORS:
         found = _joined(lines, Layout(separator))
@@ -29,7 +29,7 @@ def _joined(lines: Sequence[str], form: Layout) -> list[str] | None:
     while at < len(lines):
         count = _length(lines[at:], form)
         whole = " ".join(line.strip("\r\n") for line in lines[at : at + count])
-        found += [lines[at]] if count == 1 else [whole + "\n", *["\n"] * (count - 1)]
+        found += [lines[at]] if count == 1 else [*["\n"] * (count - 1), whole + "\n"]
         joined, at = joined or count > 1, at + count
     return found if joined else None
 

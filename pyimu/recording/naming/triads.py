@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from pyimu.recording.naming.endings import fits
-from pyimu.recording.naming.name import WORD, Name, named
+from pyimu.recording.naming.name import EITHER, WORD, Name, named
 from pyimu.recording.naming.words import (
     ALONG,
     DERIVED,
@@ -25,6 +25,9 @@ from pyimu.recording.naming.words import (
     TRUTHS,
     WEAK,
 )
+
+OF_G = (("g",), ("g", "force"))
+"""Words beside those for a vehicle's axes that say an acceleration."""
 
 OF_VECTORS = {
     *PAIRS["gyro"][0],
@@ -153,12 +156,15 @@ def _with_rolls(names: Sequence[Name]) -> list[Name]:
 
 
 def _with_turns(names: Sequence[Name]) -> list[Name]:
-    """The names; of three rates of roll, pitch and yaw these are the axes."""
+    """The names; of three rates of roll, pitch and yaw, by a word or their unit, these are the
+    axes.
+    """
     found, rates = list(names), PAIRS["gyro"][1]
     stems: dict[tuple[str, ...], dict[str, int]] = {}
     for position, name in enumerate(names):
         turn = next((word for word in name.words if word in RATED), None)
-        if turn is not None and not name.axis and set(name.words) & rates:
+        rated = set(name.words) & rates or name.unit is not None and fits(name.unit, "gyro")
+        if turn is not None and not name.axis and rated:
             rest = tuple(word for word in name.words if word != turn)
             stems.setdefault(rest, {}).setdefault(RATED[turn], position)
     for rest, axes in stems.items():
@@ -173,12 +179,14 @@ def _with_ways(names: Sequence[Name]) -> list[Name]:
     for position, name in enumerate(names):
         way = next((word for word in name.words if word in ALONG), None)
         rest = tuple(word for word in name.words if word != way)
-        if way is not None and not name.axis and (set(rest) & STRONG["accel"] or rest == ("g",)):
+        if way is not None and not name.axis and (set(rest) & STRONG["accel"] or rest in OF_G):
             stems.setdefault(rest, {}).setdefault(ALONG[way], position)
     for rest, axes in stems.items():
         for axis, position in axes.items() if len(axes) == 3 else ():
             words = ("accel", OF_VEHICLE, *(word for word in rest if word != "g"))
-            found[position] = replace(names[position], words=words, axis=axis)
+            name = names[position]
+            unit = name.unit or EITHER.get(name.said, (None,))[0]
+            found[position] = replace(name, words=words, axis=axis, unit=unit)
     return found
 
 
