@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from pyimu.recording.apple import with_whole_force
 from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.formats.digit_time import with_time_of_digits
 from pyimu.recording.formats.matrix_attitude import with_attitude
 from pyimu.recording.formats.one_unit import with_one_unit
 from pyimu.recording.formats.reader import Reader
@@ -17,4 +18,5 @@ from pyimu.recording.formats.steps import with_summed_steps
 def with_made_columns(reader: Reader, foreign: ForeignMap) -> tuple[Reader, ForeignMap]:
     """``reader`` with the columns that are made of others, and the map with the time among them."""
     own = with_signs(with_one_unit(reader, foreign.topics.get("imu", "")))
-    return with_summed_steps(*with_one_time(with_attitude(with_whole_force(own)), foreign))
+    timed = with_one_time(with_attitude(with_whole_force(own)), foreign)
+    return with_summed_steps(*with_time_of_digits(*timed))

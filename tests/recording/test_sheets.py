@@ -344,3 +344,80 @@ def test_the_second_person_of_wisdm(log, tmp_path):
     (tmp_path / "map.toml").write_text('[topics]\nimu = "99"\n')
     with pytest.raises(UserError, match="no row has 99 as its user"):
         read_recording(path, tmp_path / "map.toml")
+
+
+# Clocks of digits
+
+
+def clock(seconds, form):
+    """Times of day of the ``seconds`` (n,), in a form of hours, minutes, seconds and their ms."""
+    ms = [round(1000 * s) for s in seconds]
+    return [form(m // 3600000 % 24, m // 60000 % 60, m // 1000 % 60, m % 1000) for m in ms]
+
+
+def dial(h, m, s, ms):
+    return f"{(h - 1) % 12 + 1}:{m:02d}:{s:02d}.{ms:03d}"
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        lambda h, m, s, ms: f"20240503{h:02d}{m:02d}{s:02d}.{ms:03d}",
+        lambda h, m, s, ms: f"20240503{h:02d}{m:02d}{s:02d}{ms:03d}",
+        lambda h, m, s, ms: f"20240503_{h:02d}{m:02d}{s:02d}_{ms:03d}",
+        lambda h, m, s, ms: f"{h:02d}{m:02d}{s:02d}.{ms:03d}",
+        dial,
+    ],
+)
+def test_times_of_digits_and_of_a_dial(form, log, tmp_path):
+    """Of digits each minute was a gap of 40 s; on a dial the time ran backwards at 12:59."""
+    stamps = clock(12 * 3600 + 59 * 60 + 50 + log[0], form)
+    head = HEAD.replace("Time (ms)", "utc time")
+    path = written(tmp_path / "log.csv", [head, *rows(stamps, log[2], np.degrees(log[1]))])
+    agrees(by_its_map(path, tmp_path), log)
+
+
+def test_numbers_that_go_through_60_are_no_times_of_digits(log, tmp_path):
+    head = HEAD.replace("Time (ms)", "time")
+    lines = [head, *rows(1000 + 10 * log[0], log[2], np.degrees(log[1]))]
+    found = inspect(written(tmp_path / "log.csv", lines))
+    assert found.proposals[0].header[0] == "time"
+
+
+def test_a_time_that_a_sheet_rounded_is_said(log, tmp_path):
+    stamps = ["1.71473E+12"] * len(log[0])
+    lines = ["time_ms,ax,ay,az,gx,gy,gz", *rows(stamps, log[2], np.degrees(log[1]))]
+    said = inspect(written(tmp_path / "log.csv", lines)).report()
+    assert "time_ms is 1.71473e+12 in every row, and no time: sheets round" in said
+
+
+def test_numbers_that_an_apostrophe_marks_as_texts(log, tmp_path):
+    stamps = [f"'{1714730462000 + round(1000 * t)}" for t in log[0]]
+    agrees(
+        read_recording(
+            written(tmp_path / "log.csv", [HEAD, *rows(stamps, log[2], np.degrees(log[1]))])
+        ),
+        log,
+    )
+
+
+# Names of vectors
+
+
+@pytest.mark.parametrize(
+    "names",
+    ["rollrate,pitchrate,yawrate", "rollspeed,pitchspeed,yawspeed", "RollVel,PitchVel,YawVel"],
+)
+def test_rates_of_angles_in_one_word(names, log, tmp_path):
+    path = written(tmp_path / "log.csv", [f"t,ax,ay,az,{names}", *rows(log[0], log[2], log[1])])
+    agrees(by_its_map(path, tmp_path), log)
+
+
+def test_a_letter_says_less_than_gravity(log, tmp_path):
+    """``Gx`` of a force in g had been a gyro's, whose unit was asked for."""
+    table = ["t,Gx,Gy,Gz,Rx,Ry,Rz", *rows(log[0], log[2] / G, np.degrees(log[1]))]
+    agrees(by_its_map(written(tmp_path / "log.csv", table), tmp_path), log)
+    # A bias of 1 deg/s at rest is none.
+    rate = np.random.default_rng(2).normal([0.9, 0.3, 0.3], 0.02, (len(log[0]), 3))
+    found = inspect(written(tmp_path / "rest.csv", ["t,gx,gy,gz", *rows(log[0], rate)]))
+    assert found.proposals[0].groups == ["time", "gyro"]

@@ -5,7 +5,8 @@ time of day alone counts, and of ``Wed Dec 22 21:09:46 2021`` and ``01-Feb-2024 
 Phones write milliseconds behind a third colon, ``12:00:00:010``, cameras frames or hundredths,
 ``12:00:00:24``, spreadsheets AM or PM behind the time, and pandas' spans the days before it, ``0
 days 00:00:00.010``. Spreadsheets show times with parts of a second without their hours,
-``59:59.9``, and MATLAB spans with their unit, ``0.01 sec``.
+``59:59.9``, and MATLAB spans with their unit, ``0.01 sec``. Programs write both without signs,
+``20240201_120000_010``.
 
 And those that Parquet files and data frames hold as such, with spans of time.
 """
@@ -34,8 +35,19 @@ _PATTERN = (
     r"\s*(?:Z|UTC|(?P<zone>[-+]\d{2}:?\d{2})| \d{4})?\s*$"
 )
 
+_RUN_TOGETHER = re.compile(
+    r"^\s*((?:19|20)\d{2})(0[1-9]|1[0-2])(0[1-9]|[12]\d|3[01])[-_ T]?"
+    r"([01]\d|2[0-3])([0-5]\d)([0-5]\d)(?:[._]?(\d{1,9}))?\s*$"
+)
+"""A date and a time without signs between them, ``20240201120000.010``."""
+
+_PARTED = r"\1-\2-\3T\4:\5:\6.\g<7>0"
+
 DAY, HOUR = 86400, 3600
 """s."""
+
+NEARLY = 0.99
+"""Part of half a day by which times on a dial of twelve hours fall, from 12:59 to 1:00."""
 
 FRAMES = (24, 25, 30, 48, 50, 60, 100)
 """Frames a second of cameras; what counts further are hundredths."""
@@ -46,25 +58,26 @@ LEAST_FRAMES = 10
 
 def is_clock_time(cell: str) -> bool:
     """Whether a cell is a time of day, or that behind a date."""
-    return re.match(_PATTERN, cell) is not None
+    return re.match(_PATTERN, _RUN_TOGETHER.sub(_PARTED, cell)) is not None
 
 
 class ClockTimes:
     """Dates and times of day in s since the midnight before the first of them, piece by piece.
 
     So two files of one day have one clock. A time of day that falls by more than half a day is one
-    of the day after, and one without its hour one of the hour after.
+    of the day after, one that falls by nearly that much is on a dial of twelve hours, and one
+    without its hour is one of the hour after.
     """
 
     def __init__(self) -> None:
         self._first_day: int | None = None
-        self._days = 0
+        self._days = 0.0
         self._last: float | None = None
         self._frames: int | None = None
 
     def add(self, cells: pa.Array) -> np.ndarray:
         """Seconds (n,) of texts, NaN where one is missing or none."""
-        found = pc.extract_regex(cells, _PATTERN)
+        found = pc.extract_regex(_parted(cells), _PATTERN)
         field = {name: found.field(k) for k, name in enumerate(_names(found))}
         known = ~np.asarray(pc.is_null(found))
         clock = ("hour", "minute", "second", "minutes", "of_minute")
@@ -97,12 +110,23 @@ class ClockTimes:
         seen = times[known]
         if not len(seen):
             return times
-        falls = np.diff(seen, prepend=seen[0] if self._last is None else self._last) < -shown / 2
+        steps = np.diff(seen, prepend=seen[0] if self._last is None else self._last)
+        falls = (steps < -shown / 2).astype(float)
+        falls[(steps >= -DAY / 2) & (steps < NEARLY * -DAY / 2)] = 0.5
         days = self._days + np.cumsum(falls)
-        self._last, self._days = float(seen[-1]), int(days[-1])
+        self._last, self._days = float(seen[-1]), float(days[-1])
         times = times.copy()
         times[known] = seen + shown * days
         return times
+
+
+def _parted(cells: pa.Array) -> pa.Array:
+    """Texts, of which those of digits alone have the signs of a date and a time between them."""
+    if not len(cells) or ":" in (next((c for c in cells.to_pylist() if c), ":")):
+        return cells
+    return pc.replace_substring_regex(
+        cells, _RUN_TOGETHER.pattern, _PARTED.replace(r"\g<7>", r"\7")
+    )
 
 
 def is_clock(kind: pa.DataType) -> bool:

@@ -1,7 +1,7 @@
 """Numbers that are written otherwise than programs read them: with their unit in the cell
 (``9.81 m/s2``), with the minus sign of printers, in hexadecimal digits, with Fortran's exponent,
 with decimal commas between commas or beside decimal points, several in a cell as a list
-(``"[0.1, 0.2, 9.8]"``), or as a spreadsheet's formula for a text (``="0.1"``).
+(``"[0.1, 0.2, 9.8]"``), or as texts of a spreadsheet (``="0.1"``, ``'12``).
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ _MINUS = re.compile(rf"{MINUS}(?=\.?\d)")
 _FORTRAN = re.compile(r"(?<![\w.])([-+]?(?:\d+\.?\d*|\.\d+))[dD]([-+]\d{1,3})(?![\w.])")
 _HEXADECIMAL = re.compile(r"(?<![\w.:-])0[xX]([0-9A-Fa-f]{1,8})(?![\w.:-])")
 _FORMULA = re.compile(r'"=""([^"]*)"""|="([^"]*)"')
+_APOSTROPHE = re.compile(r"(?:(?<=[,;\t|\"])|^)'(?=[-+]?\.?\d)")
 _WITH_UNIT = re.compile(
     r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\W\d_][^\s,;]*|[°º%/][^\s,;]*)\s*"
 )
@@ -59,6 +60,7 @@ def plain_numbers(lines: Sequence[str]) -> Plain | None:
     tail = rows[len(rows) // 2 :]
     for pattern, by, said in (
         (_FORMULA, _text, 'texts as formulas (="0.1")'),
+        (_APOSTROPHE, "", "numbers that an apostrophe marks as texts"),
         (_FORTRAN, r"\1E\2", "exponents with D"),
         (_MINUS, "-", "the minus sign of printers"),
         (_HEXADECIMAL, lambda match: str(int(match[1], 16)), "numbers in hexadecimal digits"),

@@ -30,6 +30,10 @@ TURNED = 0.5
 """How far a vector of one size must go, as a part of it, for its size to be no sensor's: whoever
 turns an accelerometer shakes it too."""
 
+TURNS, STEADY = 0.95, 0.1
+"""How long the mean direction of a vector is at most that turns, by some 18 deg and more, and by
+how much its length may scatter meanwhile."""
+
 Picked = list[tuple[int, Name]] | None
 """Positions and names of the three columns of a vector."""
 
@@ -252,6 +256,16 @@ def missing(
             return [(k, names[k]) for k in at]
         found.notes.append(f"{cells} are left out: they may be the {group} ({guess.why})")
     return None
+
+
+def keeps_its_size(vector: np.ndarray) -> bool:
+    """Whether a vector (n, 3) turns far and stays as long as it is, as gravity does in a hand."""
+    known = vector[np.isfinite(vector).all(axis=1)]
+    size = np.linalg.norm(known, axis=1)
+    if not len(known) or not size.all():
+        return False
+    straight = float(np.linalg.norm((known / size[:, None]).mean(axis=0)))
+    return straight < TURNS and float(np.std(size) / np.mean(size)) < STEADY
 
 
 def _scatter(force: np.ndarray) -> float:

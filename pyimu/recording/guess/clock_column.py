@@ -17,6 +17,9 @@ from pyimu.recording.naming.words import COUNTERS, INERTIAL, NUMBERS, TRUTHS
 CLOCK = UnitGuess("s", "dates or times of day, in seconds of the first day")
 """Of a column of them."""
 
+ROUNDED = ", and no time: sheets round long numbers so (1.71E+12), export it with all its digits"
+"""What is said of a time that stands still."""
+
 SELDOM = 0.1
 """Share of the steps of a time that may go the other way."""
 
@@ -41,6 +44,8 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
             values = np.sort(values)  # reading says in which row it falls
             guess = CLOCK if k in clocks else _time_guess(names[k], values)
             disordered.append((k, values, guess))
+        elif names[k].is_time and len(values) > 1 and np.all(values == values[0]):
+            found.notes.append(f"{reader.header[k]} is {values[0]:.6g} in every row{ROUNDED}")
     candidates = candidates or disordered
     if not candidates:
         found.rate = rate or reader.rate

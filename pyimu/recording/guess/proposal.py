@@ -13,7 +13,7 @@ from pyimu.recording.counter import Unwrapped
 from pyimu.recording.formats.matrix_attitude import elements
 from pyimu.recording.formats.reader import Reader
 from pyimu.recording.guess.angles import angle_of_rate
-from pyimu.recording.guess.by_numbers import Picked, by_numbers, missing
+from pyimu.recording.guess.by_numbers import Picked, by_numbers, keeps_its_size, missing
 from pyimu.recording.guess.clock_column import add_time
 from pyimu.recording.guess.first_rows import Numbers
 from pyimu.recording.guess.guessed import Guess, Proposal
@@ -102,6 +102,7 @@ def proposed(
     period = add_time(found, reader, numbers, rate)
     vectors = triads(reader.header, reader.path.name)
     picked = _picked(found, vectors, sensor)
+    _of_gravity(found, picked, numbers)
     attitudes = attitudes_in(reader, numbers)
     add_receiver_counts(found, reader, numbers, period)
     counted = bool({"gyro", "accel"} & set(found.groups))
@@ -179,6 +180,25 @@ def _picked(found: Proposal, vectors: list[Triad], sensor: str) -> dict[str, Pic
                 f"of several sensors {called} is read; pyimu inspect {rest} takes another"
             )
     return {group: picked[group] for group in ("accel", "gyro", "mag")}
+
+
+def _of_gravity(found: Proposal, picked: dict[str, Picked], numbers: Numbers) -> None:
+    """Take for the accelerometer what a letter alone calls a gyro's, and keeps gravity's size while
+    it turns: ``Gx``, ``Gy`` and ``Gz`` of a force in g. At rest it may be a gyro's bias.
+    """
+    own = picked["gyro"]
+    if (
+        own is None
+        or picked["accel"] is not None
+        or any(n.of("gyro") > 1 or n.unit for _, n in own)
+    ):
+        return
+    values = numbers.of([p for p, _ in own])
+    seen = force_unit(values)
+    if seen.fits and seen.value is None and keeps_its_size(values):
+        cells = ", ".join(name.cell for _, name in own)
+        found.notes.append(f"{cells} were taken for the accel, not the gyro: {seen.why}")
+        picked["accel"], picked["gyro"] = own, None
 
 
 def _vector(

@@ -33,6 +33,7 @@ from pyimu.recording.spelling import unit_of
 from pyimu.units import DEGREES, Unit, parse
 
 _AXIS_FIRST = re.compile(r"([xyz])(gyro?s?|gyroscope|acce?l?|acceleration|mag)")
+_TURN = re.compile(r"(roll|pitch|yaw)(rate|speed|vel|dot)", re.I)
 _DELTA = re.compile("[\u0394\u2206]")
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 
@@ -108,7 +109,7 @@ def named(cell: str) -> Name:
         unit = _unit(said, text)
         text = _remark_first(text) if unit is not None else text
     text = in_english(text)
-    words = [word.casefold() for word in WORD.findall(text)]
+    words = [word.casefold() for word in WORD.findall(_TURN.sub(r"\1 \2", text))]
     if unit is None and not said:
         words, unit = in_words(words, {*"xyz", *ROLLS, *TIMES, *PERIODS, *TEMPERATURES})
     if unit is None and not said and words and words[-1] in TICKS:

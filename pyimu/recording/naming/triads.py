@@ -20,6 +20,7 @@ from pyimu.recording.naming.words import (
     RATED,
     RAW,
     ROLLS,
+    SPEEDS,
     STRONG,
     TOLD_BY_UNIT,
     TRUTHS,
@@ -159,13 +160,13 @@ def _with_turns(names: Sequence[Name]) -> list[Name]:
     """The names; of three rates of roll, pitch and yaw, by a word or their unit, these are the
     axes.
     """
-    found, rates = list(names), PAIRS["gyro"][1]
+    found, rates = list(names), PAIRS["gyro"][1] | SPEEDS
     stems: dict[tuple[str, ...], dict[str, int]] = {}
     for position, name in enumerate(names):
         turn = next((word for word in name.words if word in RATED), None)
         rated = set(name.words) & rates or name.unit is not None and fits(name.unit, "gyro")
         if turn is not None and not name.axis and rated:
-            rest = tuple(word for word in name.words if word != turn)
+            rest = tuple("rate" if word in SPEEDS else word for word in name.words if word != turn)
             stems.setdefault(rest, {}).setdefault(RATED[turn], position)
     for rest, axes in stems.items():
         for axis, position in axes.items() if len(axes) == 3 else ():

@@ -16,7 +16,10 @@ ROLLS = {"p": "x", "q": "y", "r": "z"}
 """The rates about the axes, as aeroplanes have them, where all three are there."""
 
 RATED = {"roll": "x", "pitch": "y", "yaw": "z"}
-"""Words for the axes before one for a rate, as vehicles have them: ``YawRate``."""
+"""Words for the axes before one for a rate, as vehicles have them: ``YawRate``, ``yawspeed``."""
+
+SPEEDS = {"speed", "dot"}
+"""Words for a rate behind these alone."""
 
 WEAK = {
     "gyro": {"w", "g", "gy", "rate", "rates", "pqr"},
