@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 
 from pyimu.display.silent import silent
@@ -15,7 +17,7 @@ from pyimu.recording.column_map import ForeignMap, map_of
 from pyimu.recording.columns import own_name
 from pyimu.recording.folders import log_in
 from pyimu.recording.formats.reader import Reader
-from pyimu.recording.formats.suffix import open_reader
+from pyimu.recording.formats.suffix import READERS, open_reader, stem
 from pyimu.recording.guess.guessed import Guess, Proposal
 from pyimu.recording.guess.proposal import ZEROS, forces, proposed
 from pyimu.recording.guess.writing import MapGiven, text_of
@@ -23,6 +25,7 @@ from pyimu.recording.known import STATED, Known, is_own, recognised
 from pyimu.recording.log import Log
 from pyimu.recording.made import with_made_columns
 from pyimu.recording.naming.name import named
+from pyimu.recording.naming.words import DERIVED, LINEAR
 from pyimu.recording.optical import question
 from pyimu.recording.quality.false_force import false_force
 from pyimu.recording.quality.gyro_axes import gyro_findings
@@ -298,6 +301,23 @@ def _no_times(reader: Reader) -> str:
     return f": {', '.join(there)} has no numbers, dates with times or times of day"
 
 
+MOST_SEEN = 1000
+"""Files of a folder that are looked at for an accelerometer's."""
+
+
+def _accelerometer_beside(given: Sequence[Path]) -> str:
+    """What to add of a gyro whose unit nothing tells: the accelerometer's file of the same log."""
+    if len(given) > 1:
+        return ""
+    for path in sorted(islice(given[0].parent.iterdir(), MOST_SEEN)):
+        name = named(stem(path))
+        whole = name.of("accel") > 1 and not set(name.words) & (LINEAR | DERIVED)
+        if whole and path != given[0] and path.name.lower().endswith(tuple(READERS)):
+            files = shlex.join(map(str, (given[0], path)))
+            return f", or let the accelerometer beside it tell: pyimu inspect {files}"
+    return ""
+
+
 def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: str) -> Recording:
     """The log by the map that was written."""
     order = sorted(range(len(readers)), key=lambda k: "gyro" not in proposals[k].groups)
@@ -318,7 +338,10 @@ def _by_guess(readers: Sequence[Reader], proposals: Sequence[Proposal], text: st
         raise UserError(f"{reader.path}: {empty}: every number is zero, there is nothing to read")
     if "time" in unknown or seen <= set(unknown):
         asked = " and ".join(dict.fromkeys(unknown))
-        raise UserError(f"{reader.path}: nothing tells the unit of {asked}: choose it in the map")
+        more = _accelerometer_beside([r.path for r in readers]) if "gyro" in unknown else ""
+        raise UserError(
+            f"{reader.path}: nothing tells the unit of {asked}: choose it in the map{more}"
+        )
     if first.timeless:
         raise UserError(
             f"{reader.path}: nothing tells when its samples were taken{_no_times(reader)}"

@@ -146,3 +146,35 @@ def test_a_second_table_below_the_first_is_said(log, tmp_path):
     table = ["t,ax,ay,az", *rows(log[0], log[2]), "t,gx,gy,gz", *rows(log[0], log[1])]
     with pytest.raises(UserError, match=r"row 2002: 't' is no number.*a file of its own"):
         inspect(written(tmp_path / "log.csv", table))
+
+
+def test_a_row_for_each_value_is_told_what_to_do(log, tmp_path):
+    long, influx = ["time,sensor,axis,value"], [",result,table,_time,_value,_field,_measurement"]
+    for t, w, f in zip(*log, strict=True):
+        for name, vector in (("acc", f), ("gyro", w)):
+            long += [f"{t:.3f},{name},{a},{v:.6f}" for a, v in zip("xyz", vector, strict=True)]
+        influx.append(f",,0,2024-05-03T10:00:{t:06.3f}Z,{f[0]:.6f},ax,imu")
+    for table in (long, influx):
+        with pytest.raises(UserError, match="a row for each value of each axis .*; make a column"):
+            inspect(written(tmp_path / "log.csv", table))
+    # A column that is called a value beside a sensor's is none.
+    whole = [
+        "t,ax,ay,az,gx,gy,gz,value,state",
+        *rows(*log[::2], log[1], log[0], ["x"] * len(log[0])),
+    ]
+    assert inspect(written(tmp_path / "log.csv", whole)).recording is not None
+
+
+def test_the_accelerometer_s_file_beside_a_gyro_s_is_named(log, tmp_path):
+    """ADVIO: tables of the time and a vector, without names."""
+    gyro = written(tmp_path / "gyro.csv", rows(log[0], log[1]))
+    written(tmp_path / "frames.csv", rows(log[0], range(len(log[0]))))
+    written(tmp_path / "linear_acceleration.csv", rows(log[0], 0 * log[2]))
+    assert "inspect" not in inspect(gyro).problem
+    force = written(tmp_path / "accelerometer.csv", rows(log[0], log[2]))
+    assert (
+        f"or let the accelerometer beside it tell: pyimu inspect {gyro} {force}"
+        in inspect(gyro).problem
+    )
+    (tmp_path / "map.toml").write_text(inspect([gyro, force]).column_map)
+    agrees(read_recording(gyro, tmp_path / "map.toml"), log)

@@ -15,6 +15,7 @@ from pyimu.recording.formats.flysight import flysight
 from pyimu.recording.formats.headed import headed
 from pyimu.recording.formats.labelled import labelled
 from pyimu.recording.formats.lines import CARRIAGE, code_of, is_comment, lines
+from pyimu.recording.formats.long_table import long_table
 from pyimu.recording.formats.marked import (
     GNSS_LOGGER,
     SHARE,
@@ -103,6 +104,8 @@ def _told(head: Sequence[str], path: Path, topic: str) -> Layout:
     if below is not None:
         return _behind(below)
     found = _of_table(head, topic)
+    if long := long_table(head, found):
+        raise UserError(f"{path}: {long}")
     for row, line in enumerate(head[: found.first - 1], 1):
         line = line.rstrip("\r\n")
         if not is_comment(line) and len(found.cells(line)) > 1 and found.is_open(line):
