@@ -35,6 +35,7 @@ WORDS = {
     "radians": "rad",
     "mdeg": "mdeg",
     "dps": "deg/s",
+    "mdps": "mdps",
     "d/s": "deg/s",
     "gs": "g",
     "gees": "g",

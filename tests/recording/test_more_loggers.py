@@ -178,3 +178,34 @@ def test_the_accelerometer_s_file_beside_a_gyro_s_is_named(log, tmp_path):
     )
     (tmp_path / "map.toml").write_text(inspect([gyro, force]).column_map)
     agrees(read_recording(gyro, tmp_path / "map.toml"), log)
+
+
+# Frames and prints
+
+
+@pytest.mark.parametrize("kind", ["parquet", "json"])
+def test_dates_in_the_index_of_a_frame_are_its_times(kind, log, tmp_path):
+    """They had been said to count the rows, as what is called an index does."""
+    pandas = pytest.importorskip("pandas")
+    names = [f"{n}{a}" for n in "ag" for a in "xyz"]
+    times = pandas.to_datetime(1_714_730_462_000 + np.rint(1000 * log[0]), unit="ms")
+    frame = pandas.DataFrame(np.column_stack([log[2], log[1]]), columns=names, index=times)
+    path = tmp_path / f"log.{kind}"
+    if kind == "parquet":
+        frame.to_parquet(path)
+    else:
+        whole = frame.reset_index().assign(index=1_714_730_462_000 + np.rint(1000 * log[0]))
+        whole.to_json(path, orient="records", double_precision=12)
+    agrees(by_its_map(path, tmp_path), log)
+
+
+def test_arrays_as_numpy_prints_them_behind_a_time(log, tmp_path):
+    """Blanks pad their numbers, so that rows had eight cells or seven."""
+    form = "{s:.3f} [{f[0]: .6f} {f[1]: .6f} {f[2]: .6f}] [{w[0]: .6f} {w[1]: .6f} {w[2]: .6f}]"
+    agrees(by_its_map(written(tmp_path / "log.txt", lines(log, form)), tmp_path), log)
+
+
+def test_units_in_letters_of_any_size(log, tmp_path):
+    head = "t [mS],ax [mG],ay [mG],az [mG],gx [mDPS],gy [mDPS],gz [mDPS]"
+    table = [head, *rows(1000 * log[0], 1000 * log[2] / G, 1000 * np.degrees(log[1]))]
+    agrees(by_its_map(written(tmp_path / "log.csv", table), tmp_path), log)

@@ -127,13 +127,18 @@ def _with_lists(tail: Sequence[str]) -> Plain | None:
         return None
     row = next(row for row in tail if tuple(_counts(row)) == counts)
     outside = _LIST.sub("\0", row).strip(_AROUND)
-    by = max(",;\t|", key=outside.count)
-    cells = outside.split(by if by in outside else ",")
+    by = max(",;\t| ", key=lambda mark: (mark in outside and mark != " ", outside.count(mark)))
+    cells = _split(outside, by)
     lists = [k for k, cell in enumerate(cells) if "\0" in cell]
     if len(lists) != len(counts):
         return None
     places = dict(zip(lists, counts, strict=True))
     return Plain(_unrolled(places, len(cells), by), "several numbers in a cell")
+
+
+def _split(line: str, by: str) -> list[str]:
+    """The cells of a line, a run of blanks for one where these part them."""
+    return line.split() if by == " " else line.split(by)
 
 
 def _counts(row: str) -> list[int]:
@@ -146,7 +151,7 @@ def _unrolled(places: Mapping[int, int], width: int, by: str) -> Rewrite:
         if _LIST.search(line):
             flat = _LIST.sub(lambda match: by.join(_BETWEEN.split(match[1])), line)
             return flat.strip(_AROUND + ",")
-        names = line.split(by)
+        names = _split(line, by)
         if len(names) != width or not line.strip():
             return line
         each = [

@@ -35,7 +35,7 @@ def add_time(found: Proposal, reader: Reader, numbers: Numbers, rate: float | No
     disordered: list[tuple[int, np.ndarray, UnitGuess]] = []
     for k in at:
         values = Unwrapped(*SECONDS.values()).add(numbers.of([k]))
-        if not names[k].is_time and (NUMBERS & set(names[k].words) or _counts_rows(values)):
+        if not (names[k].is_time or k in clocks) and _are_numbers(names[k], values):
             found.notes.append(f"{reader.header[k]} counts the rows, and is no time")
         elif rises(values) or (names[k].is_time or k in clocks) and _mean_rate(values) is not None:
             guess = CLOCK if k in clocks else _time_guess(names[k], values)
@@ -115,6 +115,14 @@ def _is_out_of_order(values: np.ndarray) -> bool:
 def rises(values: np.ndarray) -> bool:
     step = np.diff(values[np.isfinite(values.astype(float))])
     return len(step) > 1 and bool(np.all(step >= 0)) and bool(np.mean(step > 0) > 0.5)
+
+
+def _are_numbers(name: Name, values: np.ndarray) -> bool:
+    """Whether values that nobody calls a time number the rows, by the name or as they are; dates
+    that stand in the index of a frame do not.
+    """
+    dated = rises(values) and "date" in time_unit(values).why
+    return bool(NUMBERS & set(name.words)) and not dated or _counts_rows(values)
 
 
 def _counts_rows(values: np.ndarray) -> bool:
