@@ -377,9 +377,12 @@ def test_times_of_digits_and_of_a_dial(form, log, tmp_path):
     agrees(by_its_map(path, tmp_path), log)
 
 
-def test_numbers_that_go_through_60_are_no_times_of_digits(log, tmp_path):
-    head = HEAD.replace("Time (ms)", "time")
-    lines = [head, *rows(1000 + 10 * log[0], log[2], np.degrees(log[1]))]
+@pytest.mark.parametrize("first, step, count", [(1000, 0.1, None), (0, 100, 59), (0, 50, 119)])
+def test_numbers_that_count_are_no_times_of_digits(first, step, count, log, tmp_path):
+    """Nor are ms of a short log at 10 or 20 Hz, none of which ends with 60 or more."""
+    head, part = HEAD.replace("Time (ms)", "time"), slice(count)
+    times = first + step * np.arange(len(log[0]))
+    lines = [head, *rows(times[part], log[2][part], np.degrees(log[1])[part])]
     found = inspect(written(tmp_path / "log.csv", lines))
     assert found.proposals[0].header[0] == "time"
 

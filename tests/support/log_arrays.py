@@ -89,7 +89,18 @@ def texts(folder, log):
     return as_json(folder / "texts.json", [dict(zip(BARE, r, strict=True), who="me") for r in rows])
 
 
+def of_kinds(folder, log):
+    """Sensor Logger's JSON, in which each sample says whose it is."""
+    rows = []
+    for t, w, f in zip(*(part.tolist() for part in log), strict=True):
+        for name, vector in (("TotalAcceleration", f), ("Gyroscope", w)):
+            stamp = {"time": str(17 * 10**17 + round(1e9 * t))}
+            rows.append({"sensor": name} | stamp | dict(zip("xyz", map(str, vector), strict=True)))
+    return as_json(folder / "kinds.json", rows)
+
+
 ARRAYS = (table, samples_along_rows, records, arrays, arrays_with_dates, named_columns)
 JSONS = (edge_impulse, frame_split, frame_of_columns, names_first, within_an_object, texts)
+JSONS += (of_kinds,)
 ALONE = (named_columns, edge_impulse)
 """Those that are read as they are; the others need a map of their own."""

@@ -72,6 +72,28 @@ def steps(folder, log):
     return folder / "steps.csv"
 
 
+def digits(folder, log):
+    """The time of day in the digits of one number, over a minute."""
+    ms = [round(t / 1e6) + 59_700 for t in log[0].tolist()]
+    stamps = [f"{t // 3600000:02d}{t // 60000 % 60:02d}{t % 60000 / 1000:06.3f}" for t in ms]
+    rows = [",".join([t, *row[1:]]) for t, row in zip(stamps, cells(log), strict=True)]
+    (folder / "digits.csv").write_text("\n".join([HEAD.replace("Time (ms)", "utc"), *rows, ""]))
+    return folder / "digits.csv"
+
+
+def plotjuggler(folder, log):
+    """PX4's messages beside those of another topic, which have rows of their own."""
+    stem = "/sensor_combined/"
+    names = [f"{stem}{n}.0{k}" for n in ("gyro_rad", "accelerometer_m_s2") for k in range(3)]
+    lines = [",".join(["__time", *names, "/battery/voltage"])]
+    numbers = np.column_stack([log[0] / 1e9 + 3, *(v * [1, -1, -1] for v in log[1:])])
+    for k, row in enumerate(numbers.tolist()):
+        lines.append(",".join(f"{v:.9g}" for v in row) + ",")
+        lines += [f"{row[0] + 0.003:.6f},,,,,,,12.1"] * (k % 4 == 0)
+    (folder / "plotted.csv").write_text("\n".join([*lines, ""]))
+    return folder / "plotted.csv"
+
+
 def struct(folder, log):
     """Rows of binary numbers that a map describes."""
     rows = np.zeros(len(log[0]), STRUCT)
@@ -83,7 +105,7 @@ def struct(folder, log):
     return folder / "log.raw"
 
 
-ALONE = (broken_names, formulas, summed, pieces, steps)
+ALONE = (broken_names, formulas, summed, pieces, steps, digits, plotjuggler)
 """Layouts that are read as they are."""
 
 MAPPED = (struct,)

@@ -20,8 +20,8 @@ NAMES = {"utc", "gmt", "hhmmss", "clock"}
 LARGEST = 240000
 """What is larger is no time of day."""
 
-FEW = 10
-"""Steps by which a minute may begin late, where it is told by that."""
+LEAST, FEW = 0.5, 10
+"""Steps by which a minute begins, where it is told by that."""
 
 
 @dataclass(frozen=True)
@@ -82,11 +82,12 @@ def _are_digits(numbers: np.ndarray) -> bool:
     jump by 40 more.
     """
     steps = np.diff(numbers)
-    if len(steps) < FEW or np.any(steps < 0) or numbers[0] < 0 or numbers[-1] >= LARGEST:
+    if not len(steps) or np.any(steps < 0) or numbers[0] < 0 or numbers[-1] >= LARGEST:
         return False
     if np.any(numbers % 100 >= 60) or np.any(np.floor(numbers / 100) % 100 >= 60):
         return False
-    begins = np.flatnonzero(np.diff(np.floor(numbers / 100)) > 0)
-    late = np.diff(_seconds(numbers))
-    usual = float(np.median(late[late > 0])) if np.any(late > 0) else 0.0
-    return len(begins) > 0 and bool(np.all(late[begins] <= FEW * usual))
+    begins = np.diff(np.floor(numbers / 100)) > 0
+    late, usual = np.diff(_seconds(numbers)), steps[~begins & (steps > 0)]
+    if not begins.any() or len(usual) < FEW:  # steps of 100 are ms
+        return False
+    return bool(LEAST < np.median(late[begins]) / np.median(usual) < FEW)

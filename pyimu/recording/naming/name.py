@@ -139,6 +139,9 @@ def thermometer(names: Iterable[Name]) -> Name | None:
     return there[0] if len(there) == 1 else None
 
 
+ELEMENTS = {f"{zero}{k}" for zero in ("", "0") for k in range(4)}
+"""Numbers of a vector's elements: ``accel[0]``, ``accel.00`` of PlotJuggler."""
+
 EITHER = {"G": ("g", "gauss"), "mG": ("mg", "mgauss")}
 """Units that mean gravity of an accelerometer, and the field of a magnetometer."""
 
@@ -177,8 +180,8 @@ def _axis(words: list[str]) -> tuple[str, list[str]]:
         if words and 0 <= at < len(words) and words[at] in ("w", "x", "y", "z"):
             if at or len(words) == 1:
                 return words[at], words[:at] + words[at + 1 :]
-    if words and words[-1] in ("0", "1", "2", "3") and len(words) > 1:
-        return "xyz?"[int(words[-1])] if words[-1] != "3" else "3", words[:-1]
+    if len(words) > 1 and words[-1] in ELEMENTS:
+        return "xyz3"[int(words[-1])], words[:-1]
     if words:
         match = GLUED.fullmatch(words[-1])
         if match:
