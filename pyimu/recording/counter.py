@@ -13,6 +13,9 @@ CALENDAR = {"second": 1.0, "minute": 60.0, "hour": 3600.0, "day": 86400.0, "GPS 
 """s after which times begin anew that count from the start of a second, of a day, or of a week
 (IS-GPS-200)."""
 
+FINE = 999
+"""Ticks that these have at least: what begins anew each second and counts in s are trials."""
+
 SHORT = ("8 bits", "second", "minute", "hour")
 """Ranges of which times go back by about as much for other reasons, too."""
 
@@ -75,5 +78,7 @@ class Unwrapped:
 
 def spans(*seconds: float) -> dict[int, str]:
     """Ticks that times may count up to, of so many ``seconds``, and what they are called."""
-    calendar = {round(s / u): name for u in seconds for name, s in CALENDAR.items() if s >= u}
+    calendar = {
+        round(s / u): name for u in seconds for name, s in CALENDAR.items() if s >= FINE * u
+    }
     return {2**bits: f"{bits} bits" for bits in BITS} | calendar

@@ -163,6 +163,14 @@ def test_milliseconds_that_begin_anew(size, after, log, tmp_path):
     assert said.detail["after"] == after
 
 
+@pytest.mark.parametrize("length", [1, 60])
+def test_trials_of_a_second_or_a_minute_are_no_counter(length, log, tmp_path):
+    times = log[0] * length / 5 % length
+    path = written(tmp_path / "log.csv", [HEAD.replace("ms", "s"), *rows(times, log[2], log[1])])
+    with pytest.raises(UserError, match="row 502: the time runs backwards"):
+        read_recording(path)
+
+
 PIECES = {
     "sec,msec": lambda ms: (ms // 1000, ms % 1000),
     "seconds,milliseconds": lambda ms: (ms // 1000, ms % 1000),
@@ -424,3 +432,8 @@ def test_a_letter_says_less_than_gravity(log, tmp_path):
     rate = np.random.default_rng(2).normal([0.9, 0.3, 0.3], 0.02, (len(log[0]), 3))
     found = inspect(written(tmp_path / "rest.csv", ["t,gx,gy,gz", *rows(log[0], rate)]))
     assert found.proposals[0].groups == ["time", "gyro"]
+
+
+def test_sums_above_the_samples_are_none(log, tmp_path):
+    head = [HEAD, *(below(log, label, np.mean) for label in ("Mean", "Max"))]
+    agrees(read_recording(written(tmp_path / "log.csv", stated(log, head))), log)

@@ -45,6 +45,9 @@ OPEN = "unexpected end of data"
 MOST_NAMES = 3
 """Rows of names and units, at most."""
 
+MOST_SUMS = 10
+"""Rows of sums and means above the samples, at most."""
+
 _SEPARATOR = re.compile(r'"?sep=.?"?[,;\t]*', re.I)
 """The first line of a table for a spreadsheet, which says what separates its cells."""
 
@@ -123,12 +126,13 @@ def told_from(head: Sequence[str]) -> Layout:
         return Layout(names=tuple(map(str.strip, names)), first=rows[0][0] + 1 if rows else 1)
     cells = [(k, form.cells(line)) for k, line in rows]
     width = _width([c for _, c in cells])
-    start = _start([c for _, c in cells], width, form.decimal)
+    above = _start([c for _, c in cells], width, form.decimal)
+    start = above + _sums([c for _, c in cells[above:]], width, form.decimal)
     first = cells[start][0] if start < len(cells) else rows[-1][0] + 1
-    named = _together([(k, c) for k, c in cells[:start] if len(c) > 1 and 2 * len(c) > width])
+    named = _together([(k, c) for k, c in cells[:above] if len(c) > 1 and 2 * len(c) > width])
     if not named:
-        above = [re.sub(r'^("?#|//|%)+\s*', "", line) for k, line in numbered if k < first]
-        named = _names_above(above, form, width)
+        over = [re.sub(r'^("?#|//|%)+\s*', "", line) for k, line in numbered if k < first]
+        named = _names_above(over, form, width)
     whole = [c for _, c in cells[start:] if len(c) == width]
     empty = _empty(whole, width)
     named = [_over(row, width, empty) for row in named]
@@ -222,13 +226,29 @@ def _start(rows: Sequence[Sequence[str]], width: int, decimal: str) -> int:
     return len(rows)
 
 
-def _names_first(rows: Sequence[Sequence[str]], width: int, decimal: str) -> bool:
-    """Whether the first row names its columns: texts stand above numbers."""
+def _sums(rows: Sequence[Sequence[str]], width: int, decimal: str) -> int:
+    """How many of the first rows of numbers begin with a word where the others have a number, as
+    sums and means that stand above the samples do.
+    """
+    for at in range(min(MOST_SUMS, len(rows) - 1)):
+        if not rows[at][:1] or is_clock_time(rows[at][0]) or rows[at][0].strip() in MISSING:
+            return at
+        if is_number(rows[at][0], decimal) or not _names_first(rows[at:], width, decimal, 1):
+            return at
+    return 0
+
+
+def _names_first(
+    rows: Sequence[Sequence[str]], width: int, decimal: str, columns: int | None = None
+) -> bool:
+    """Whether the first row names its columns: texts stand above numbers, in one of so many
+    ``columns``.
+    """
     below = [row for row in rows[1:] if len(row) == width]
     return bool(below) and any(
         not is_number(cell, decimal)
         and 10 * sum(is_number(row[k], decimal) for row in below) >= 9 * len(below)
-        for k, cell in enumerate(rows[0])
+        for k, cell in enumerate(rows[0][:columns])
     )
 
 
