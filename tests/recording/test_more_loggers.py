@@ -209,3 +209,28 @@ def test_units_in_letters_of_any_size(log, tmp_path):
     head = "t [mS],ax [mG],ay [mG],az [mG],gx [mDPS],gy [mDPS],gz [mDPS]"
     table = [head, *rows(1000 * log[0], 1000 * log[2] / G, 1000 * np.degrees(log[1]))]
     agrees(by_its_map(written(tmp_path / "log.csv", table), tmp_path), log)
+
+
+@pytest.mark.parametrize(
+    "form, second",
+    [
+        ("{v}{a}_{s}", "right"),
+        ("{v}_{a}_{word}", "right"),
+        ("{v}{a}{dot}", "1"),
+        ("{part}_{v}{a}", "bmi160"),
+    ],
+)
+def test_the_second_sensor_by_what_stands_behind_its_axes(form, second, log, tmp_path):
+    """They were told by their numbers, or not at all, and none was offered."""
+    sides = [
+        {"s": "L", "word": "left", "dot": "", "part": "mpu6050"},
+        {"s": "R", "word": "right", "dot": ".1", "part": "bmi160"},
+    ]
+    names = [form.format(v=v, a=a, **side) for side in sides for v in ("a", "g") for a in "xyz"]
+    if "word" in form:
+        names = [n.replace("a_", "acc_").replace("g_", "gyr_") for n in names]
+    other = [part[:, [1, 2, 0]] for part in log[1:]]
+    table = [",".join(["t", *names]), *rows(log[0], log[2], log[1], other[1], other[0])]
+    path = written(tmp_path / "log.csv", table)
+    agrees(by_its_map(path, tmp_path), log)
+    agrees(inspect(path, sensor=second).recording, [log[0], *other])

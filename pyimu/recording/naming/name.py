@@ -19,6 +19,7 @@ from pyimu.recording.naming.words import (
     PERIODS,
     ROLLS,
     SAID_OF_AXES,
+    SIDES,
     STEPS,
     STRONG,
     SUMMED,
@@ -169,13 +170,13 @@ def _ends_in_axis(words: list[str]) -> bool:
 def _axis(words: list[str]) -> tuple[str, list[str]]:
     """The axis, and the words without it.
 
-    A number behind the axis is a sensor's: ``ACC.X 1``.
+    A number behind the axis, or a word for a place, is a sensor's: ``ACC.X 1``, ``ax_L``.
     """
     words = [word for word in words if word not in SAID_OF_AXES] if len(words) > 1 else words
     if len(words) > 1 and words[-1] in BEHIND:
         words = [words[-1], *words[:-1]]
-    if len(words) > 1 and words[-1].isdigit() and _ends_in_axis(words[:-1]):
-        words = [words[-1], *words[:-1]]
+    if len(words) > 1 and (words[-1].isdigit() or words[-1] in SIDES) and _ends_in_axis(words[:-1]):
+        words = [SIDES.get(words[-1], words[-1]), *words[:-1]]
     for at in (len(words) - 1, 0):
         if words and 0 <= at < len(words) and words[at] in ("w", "x", "y", "z"):
             if at or len(words) == 1:

@@ -88,7 +88,17 @@ PLACES = {
 }
 """Words for where a sensor is, of several in one table."""
 
-UNITS_OF_SEVERAL = INERTIAL | PLACES | {"sensor", "unit", "node", "device", "board"}
+SIDES = {"l": "left", "r": "right"} | {place: place for place in PLACES - {"lower"}}
+"""Words and letters for them behind the axis: ``acc_x_left``, ``ax_L``; halves of numbers of 32
+bits are called ``lower``, too.
+"""
+
+PARTS = {"adis", "adxl", "bma", "bmg", "bmi", "bno", "hg", "icm", "iim", "ism", "itg"} | {
+    *("lis", "lsm", "mma", "mti", "stim", "vn"),
+}
+"""How the names of parts begin, of several on one board: ``bmi160_ax``."""
+
+UNITS_OF_SEVERAL = INERTIAL | PLACES | PARTS | {"sensor", "unit", "node", "device", "board"}
 """Words that may stand, with a number or without, before the letter for a vector: ``imu1_gx``."""
 
 ALONG = {"inline": "x", "longitudinal": "x", "long": "x", "lon": "x"} | {
