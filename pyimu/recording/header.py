@@ -88,8 +88,8 @@ class Header:
             if new != old
         }
         foreign = bool(self._given - self._stated)
-        said = (c.partition("[")[0].strip() for c in self._cells if "[" in c or not foreign)
-        self._ours = any(name in UNITS for name in said)
+        said = (c.partition("[")[0].strip() for c in self._cells)
+        self._ours = not foreign and any(name in UNITS for name in said)
         for position, cell in enumerate(header):
             self._add(position, cell)
         self._check()

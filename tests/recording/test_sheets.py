@@ -46,6 +46,15 @@ def test_axes_in_units_of_their_own(head, log, tmp_path):
     assert "gyro [deg/s, rad/s, deg/s] from gx" in inspect(path).report()
 
 
+def test_what_is_asked_about_is_no_column_that_is_misspelled(log, tmp_path):
+    """``accel[0]`` beside ``time [s]`` was "unknown column 'accel', did you mean accel_x?"."""
+    names = [f"{n}[{k}]" for n in ("accel", "gyro") for k in range(3)]
+    lines = [",".join(["time [s]", *names]), *rows(log[0], 1000 / G * log[2], log[1])]
+    found = inspect(written(tmp_path / "log.csv", lines))
+    assert "choose the unit of accel in the map" in found.report()
+    assert "misspelled" not in found.problem and "did you mean" not in found.problem
+
+
 def test_two_units_beside_none_are_asked_about(log, tmp_path):
     head = ["t [ms],ax [g],ay [g],az [g],gx [deg/s],gy [rad/s],gz"]
     path = written(tmp_path / "log.csv", stated(log, head))
@@ -223,6 +232,12 @@ def test_steps_in_place_of_times(name, unit, log, tmp_path):
     found = read_recording(path)
     agrees(found, (np.cumsum(steps), *log[1:]))
     assert {"gaps", "layout"} <= {f.kind for f in found.findings}
+
+
+def test_a_name_with_its_unit_twice_is_one_of_steps(log, tmp_path):
+    head = ["dt_ms,ax,ay,az,gx,gy,gz", "ms,m/s2,m/s2,m/s2,deg/s,deg/s,deg/s"]
+    lines = [*head, *rows(["10"] * len(log[0]), log[2], np.degrees(log[1]))]
+    agrees(read_recording(written(tmp_path / "log.csv", lines)), log)
 
 
 def test_steps_of_no_unit_are_asked_about_or_told(log, tmp_path):
@@ -437,3 +452,18 @@ def test_a_letter_says_less_than_gravity(log, tmp_path):
 def test_sums_above_the_samples_are_none(log, tmp_path):
     head = [HEAD, *(below(log, label, np.mean) for label in ("Mean", "Max"))]
     agrees(read_recording(written(tmp_path / "log.csv", stated(log, head))), log)
+
+
+@pytest.mark.parametrize("unit, one", [("mdps", np.degrees(1000)), ("mrad/s", 1000.0)])
+def test_thousandths_without_a_unit_are_told_by_gravity(unit, one, log, tmp_path):
+    """Their unit had been asked for, of rad/s and deg/s."""
+    lines = ["t,ax,ay,az,gx,gy,gz", *rows(log[0], log[2], one * log[1])]
+    found = inspect(written(tmp_path / "log.csv", lines))
+    assert found.proposals[0].units["gyro"] == unit
+    agrees(found.recording, log)
+    # Where nothing turns, numbers that no gyro shows in deg/s are asked about.
+    rate = np.random.default_rng(3).normal(0, 4000, log[1].shape)
+    still = np.random.default_rng(4).normal([0, 0, G], 0.01, log[2].shape)
+    lines = ["t,ax,ay,az,gx,gy,gz", *rows(log[0], still, rate)]
+    asked = inspect(written(tmp_path / "rest.csv", lines)).column_map
+    assert '# "gx" = "gyro_x [mdps]"' in asked and "more than any gyro shows" in asked

@@ -11,6 +11,7 @@ import numpy as np
 
 from pyimu.errors import Finding
 from pyimu.recording.column_map import ForeignMap
+from pyimu.recording.formats.ends import end_of_samples
 from pyimu.recording.formats.reader import Columns, Reader, ReaderOver
 from pyimu.recording.naming.name import named
 
@@ -66,7 +67,8 @@ def with_time_of_digits(reader: Reader, foreign: ForeignMap) -> tuple[Reader, Fo
         called = name.is_time or bool(set(name.words) & NAMES)
         if called and name.unit is None and at in numeric and cell not in foreign.columns:
             columns, _ = next(reader.batches([at], at), ([np.zeros(0)], 1.0))
-            if _are_digits(columns[0][np.isfinite(columns[0])].astype(float)):
+            numbers = columns[0][: end_of_samples(columns[0])].astype(float)
+            if _are_digits(numbers[np.isfinite(numbers)]):
                 return DigitTimeReader(reader, at), foreign
     return reader, foreign
 

@@ -12,7 +12,7 @@ from pyimu.recording.column_map import ForeignMap
 from pyimu.recording.formats.reader import Columns, Reader, ReaderOver
 from pyimu.recording.naming.endings import in_brackets
 from pyimu.recording.naming.name import named
-from pyimu.recording.naming.words import NUMBERS, PERIODS, SUMMED, TIMES
+from pyimu.recording.naming.words import CLOCKS, NUMBERS, PERIODS, SUMMED, TIMES
 
 NAME = " ".join(SUMMED)
 
@@ -82,4 +82,4 @@ def with_summed_steps(reader: Reader, foreign: ForeignMap) -> tuple[Reader, Fore
 
 def _are_steps(words: Sequence[str]) -> bool:
     """Whether a column is called as the time from row to row is, and is nothing else."""
-    return bool(set(words) & PERIODS) and set(words) <= PERIODS | TIMES
+    return bool(set(words) & PERIODS) and set(words) <= PERIODS | TIMES | {*CLOCKS}

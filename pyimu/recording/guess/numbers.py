@@ -48,6 +48,11 @@ with OpenSignals' converter."""
 FASTEST = 100.0
 """rad/s; hands, vehicles and robots do not turn as fast: larger numbers are degrees a second."""
 
+FASTEST_SHOWN = 10_000.0
+"""deg/s; the widest ranges of gyros are 4,000 (LSM6DSV, ICM-45686)."""
+
+RATES = (("rad/s", 1.0), ("deg/s", np.pi / 180), ("mdps", np.pi / 180e3), ("mrad/s", 1e-3))
+"""Units of rates and their rad/s; the last two of numbers that are no counts alone."""
 
 WARM, WARM_K = (-40.0, 125.0), (233.15, 398.15)
 """degC and K within which electronics are specified to work."""
@@ -272,18 +277,22 @@ def rate_unit(rate: np.ndarray, force: np.ndarray | None, period: float | None) 
     if force is not None and period is not None:
         slope = turning_of_gravity(rate, force, period)
         if slope is not None:
-            for unit, one in (("rad/s", 1.0), ("deg/s", np.pi / 180)):
+            whole = counts(rate.ravel())
+            for unit, one in RATES[: 2 if whole else None]:
                 if 1 / LIKE < slope / one < LIKE:
                     why = f"gravity turns {slope / one:.2f} times as fast as these say"
                     return UnitGuess(unit, why)
             why = f"gravity turns {slope:.3g} rad for 1 of these"
-            if not counts(rate.ravel()):
+            if not whole:
                 return UnitGuess(None, why)
             size = float(np.degrees(slope))
             return sensitivities(1 / size) or UnitGuess(None, why, sizes=(size,))
     if counts(rate.ravel()):  # no gyro is as coarse as 1 deg/s
         why = "whole numbers, as counts are: see the data sheet for LSB/(deg/s)"
         return UnitGuess(None, why, sizes=tuple(1 / k for k in SENSITIVITIES))
+    if largest > FASTEST_SHOWN:
+        why = f"{largest:.4g} deg/s would be more than any gyro shows"
+        return UnitGuess(None, why, choices=("mdps", "deg/s"))
     if largest > FASTEST:
         return UnitGuess("deg/s", f"{largest:.4g} rad/s would be faster than anything turns")
     return UnitGuess(None, f"rad/s or deg/s? {_lacking(force, period)} to tell")
