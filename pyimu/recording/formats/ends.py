@@ -62,9 +62,11 @@ def _are_no_times(last: np.ndarray, before: np.ndarray) -> bool:
     """Whether the ``last`` numbers of a column go on neither from the times ``before`` nor from
     each other, as the times of a clock that began anew do.
     """
+    if np.any(last >= before[-1]):
+        return False
     steps = np.diff(before.astype(float))
     rising = steps[steps > 0]
-    if not len(rising) or np.any(last >= before[-1]):
+    if not len(rising):
         return False
     period = float(np.median(rising))
     apart = np.diff(last)
