@@ -101,7 +101,8 @@ class Trial:
     that a band would spread. ``undamped`` (n, 3) is what the reference shows of the sensor's own
     signal where ``u`` has it as a sensor does that damps a little. ``reference_apart`` says that
     another clock gave the reference its times; a rate that was differentiated has nothing above
-    ``cutoff`` Hz in ``u``. ``bent`` (n, 3) is by how much more an effect bends the sensor's own
+    ``cutoff`` Hz in ``u``; ``seen_at`` (m,) s are the times of the attitudes that it was made of.
+    ``bent`` (n, 3) is by how much more an effect bends the sensor's own
     signal than what the reference shows of it.
     """
 
@@ -136,6 +137,7 @@ class Trial:
     undamped: np.ndarray | None = None
     reference_apart: bool = False
     cutoff: float = np.inf
+    seen_at: np.ndarray | None = None
     bent: Mapping[str, np.ndarray] = field(default_factory=dict)
 
     @cached_property

@@ -72,6 +72,7 @@ def gyro_trial(recording: Recording, latitude: float | None = None) -> Trial | N
         findings=reference.findings,
         up=reference.up,
         samples=None if _was_filtered(recording) else reference.samples,
+        seen_at=reference.seen_at if reference.kind == "attitude" else None,
     )
 
 

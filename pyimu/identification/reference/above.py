@@ -27,11 +27,6 @@ from pyimu.recording.reference.filters import below, seen_as, turned_by
 from pyimu.recording.reference.unfiltered_places import GROUPS
 from pyimu.recording.reference.unsmoothed import SMOOTHED, TURNING, Smoothing
 
-FURTHER = 1.15
-"""Times the frequency up to which a reference is restored, above which what is left beside the
-sensor's own motion is a filter whose size is known no better than to some noise: of what can be
-restored it takes 2 % at nine tenths."""
-
 BENT = 9
 """Rows at an end of restored attitudes at which the curve through them may be off: what it is off
 by fades by a quarter from row to row."""
@@ -100,9 +95,7 @@ def _completed(trial: Trial, smoothing: Smoothing, turn: np.ndarray) -> Trial:
         else:
             lost = np.zeros(seen.shape)
             lost[:, axes] = smoothing.lost(seen[:, axes], trial.h)
-        left = (seen - u[first:last, OWN["gyro"]] - lost)[inner - first : until - first, axes]
         more[inner:until] = lost[inner - first : until - first]
-        more[inner:until, axes] += left - below(left, 2.0 * trial.h * FURTHER * smoothing.up_to)
         segments.append((inner, until))
     if not segments:
         return trial
@@ -115,7 +108,7 @@ def _completed(trial: Trial, smoothing: Smoothing, turn: np.ndarray) -> Trial:
 def if_longer(trial: Trial) -> np.ndarray:
     """What the reference of a trial, once restored, shows more (n, 3) of the motion that its gyro
     saw where the filter over it was longer than the one that was taken out, for each share of its
-    size; zero outside segments, and above what is judged.
+    size; zero outside segments.
     """
     out, smoothing = np.zeros(trial.y.shape), smoothing_of(trial, TURNING)
     if smoothing is None:
@@ -129,8 +122,7 @@ def if_longer(trial: Trial) -> np.ndarray:
             short, long = (seen_as(q, body, seen, h) for q in kept)
         else:
             short, long = (smoothing.vectors(one.seen(seen, h, None), h) for one in both)
-        more = (long - short)[a - first : b - first] / LONGER
-        out[a:b] = below(more, 2.0 * h * FURTHER * smoothing.up_to)
+        out[a:b] = (long - short)[a - first : b - first] / LONGER
     return out
 
 

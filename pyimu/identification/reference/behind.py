@@ -66,6 +66,10 @@ NEAR, CLOSE = range(-2, 3), 1e-3
 ROWS = 6000
 """Of a log that are looked at to choose a filter; where it turns most."""
 
+SHOWABLE = 2.0
+"""Times the highest frequency at which attitudes are used that their samples can show: of these
+there are four a period."""
+
 SETTLED = 8.0
 """Time constants after which what was before the first row is forgotten, to 0.03 %."""
 
@@ -108,7 +112,7 @@ class Lag:
 def without_filter(trial: Trial, sensor: Sensor) -> Undo | None:
     """What takes a filter out of the reference of a trial's log; None where it is behind none."""
     found = _filter(trial, sensor) if _may_be(trial) else None
-    if found is None or _is_rounding(trial, found):
+    if found is None or _is_rounding(trial, found) or _is_of_curve(trial, found):
         return None
     if isinstance(found, Lag):
         return partial(unlagged, lag=found.size, motion=in_own_band(trial).band_hz)
@@ -119,6 +123,15 @@ def _is_rounding(trial: Trial, found: Filter) -> bool:
     """Whether a filter changes no more than the rounding of the reference's numbers may."""
     x = trial.u[:, OWN[trial.kind]]
     return may_be_rounding(x - found.seen(x, trial.h, None), x, trial.digits)
+
+
+def _is_of_curve(trial: Trial, found: Filter) -> bool:
+    """Whether a filter passes all that the samples of an attitude can show: of a motion that is
+    nearly as quick as they are the curve through them shows as much less.
+    """
+    if trial.band_limit is None or not isinstance(found, Smoothing):
+        return False
+    return found.up_to > SHOWABLE * trial.band_limit
 
 
 def _may_be(trial: Trial) -> bool:

@@ -193,7 +193,8 @@ def shifted(trial: Trial, clock: Clock) -> Trial:
                 u[a:b, at] *= 1.0 - _drift(trial.time[a:b], late[a:b])[:, None]
         segments.append((a + int(inside[0]), a + int(inside[-1]) + 1))
     place = None if trial.place is None else trial.place.by(u)
-    return replace(trial, u=u, segments=segments, place=place)
+    seen_at = None if trial.seen_at is None else trial.seen_at + clock.at(trial.seen_at)
+    return replace(trial, u=u, segments=segments, place=place, seen_at=seen_at)
 
 
 def _drift(time: np.ndarray, late: np.ndarray) -> np.ndarray:

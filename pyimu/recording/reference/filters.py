@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from pyimu.recording.integration import integrated
 from pyimu.recording.reference.attitude import one_sign
+from pyimu.recording.reference.sampling import through
 
 ORDER, PERIODS = 8, 12
 """Of the low-pass, and how many half periods of its cutoff it is led in over; run both ways it
@@ -79,14 +80,21 @@ def turned_by(rate: np.ndarray, h: float) -> np.ndarray:
     """Quaternions (n, 4) of a body that turns at ``rate`` (n, 3) rad/s, ``h`` s apart, without
     jumps of sign.
 
-    A step is the integral of the cubic through four samples, of the line near the ends, and what
-    the axis turns by within it, h^2/12 w x w_next (Bortz 1971).
+    A step is the integral of a spline of fifth degree, and what the axis turns by within it,
+    h^2/12 w x w_next (Bortz 1971).
     """
-    means = np.vstack([rate[:1], 0.5 * (rate[1:] + rate[:-1])])
-    bent = np.diff(rate, 2, axis=0)
-    means[2:-1] -= (bent[1:] + bent[:-1]) / 24.0
-    means[1:] += h / 12.0 * np.cross(rate[:-1], rate[1:])
+    means = np.array(rate)
+    if len(rate) > 2:
+        means[1:] = np.diff(turns_of(rate)(np.arange(len(rate))), axis=0)
+        means[1:] += h / 12.0 * np.cross(rate[:-1], rate[1:])
     return one_sign(integrated(means, h, Rotation.identity()).as_quat(scalar_first=True))
+
+
+def turns_of(rate: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+    """The integral (m, 3) of a ``rate`` (n, 3) up to rows (m,), whole or not, in rows: a spline of
+    fifth degree damps what comes with five rows a period by 0.03 %.
+    """
+    return through(np.arange(float(len(rate))), rate, 5).antiderivative()
 
 
 def rate_of(q: np.ndarray, h: float) -> np.ndarray:

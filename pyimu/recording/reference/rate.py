@@ -61,7 +61,8 @@ class Reference:
     says whether the rate is against inertial space (True), or Earth-relative (False); ``up`` (3,)
     is the direction upward in the sensor's axes where the rate is only that about it; ``time``
     (n,) s are the instants of the sensor's samples, where its stamps scatter about these.
-    ``samples`` (m, 3) are those of a rate that was measured at times of its own.
+    ``samples`` (m, 3) are those of a rate that was measured at times of its own, ``seen_at`` (m,) s
+    the times of what a derived one was made of.
     """
 
     rate: np.ndarray
@@ -74,6 +75,7 @@ class Reference:
     up: np.ndarray | None = None
     time: np.ndarray | None = None
     samples: np.ndarray | None = None
+    seen_at: np.ndarray | None = None
 
 
 def reference_rate(recording: Recording, latitude: float | None = None) -> Reference:
@@ -287,7 +289,9 @@ def _derived(
     limit = min(0.25 / period, restored_up_to(recording.reference))
     band = trusted_band(recording.time, recording.gyro, rate, limit) if track.segments else None
     seen = _finite_runs(recording, rate)
-    return Reference(rate, kind, band, seen, tuple(track.findings), earth_rate, limit)
+    at = np.concatenate([track.time[nodes] for nodes in track.segments] or [np.zeros(0)])
+    said = tuple(track.findings)
+    return Reference(rate, kind, band, seen, said, earth_rate, limit, seen_at=at)
 
 
 def _finite_runs(recording: Recording, rate: np.ndarray) -> list[tuple[int, int]]:
