@@ -89,6 +89,8 @@ def _moved_above(trial: Trial) -> np.ndarray | None:
     moved = trial.y @ turn_of(trial)[0].T if trial.free_rotation else trial.y
     if trial.clock is not None and trial.clock.own:
         moved = delayed(moved, -trial.clock.own / trial.h)
+    of_both = np.isin(np.arange(3), trial.axes)
+    moved = np.where(of_both, moved, trial.u[:, OWN["gyro"]])
     left = _within(trial, moved - trial.u[:, OWN["gyro"]], 0.0, trial.band_hz)
     octaves = edge * 2.0 ** np.arange(int(np.ceil(np.log2(most / edge))))
     above = (_within(trial, moved, low, min(2.0 * low, most)) for low in octaves)
