@@ -102,10 +102,12 @@ def test_no_kink_is_moved_beside_a_rate_that_was_measured():
     assert found is measured and held == [trial]
 
 
-def loud(attitude: np.ndarray) -> Trial:
-    """A trial beside attitudes (n, 3) rad, small turns, with all that their rates have."""
+def loud(attitude: np.ndarray, noise: np.ndarray | float = 0.0) -> Trial:
+    """A trial beside attitudes (n, 3) rad, small turns, with all that their rates have, of which
+    some is ``noise``.
+    """
     time = H * np.arange(ROWS)
-    q = Rotation.from_rotvec(attitude).as_quat(scalar_first=True)
+    q = Rotation.from_rotvec(attitude + noise).as_quat(scalar_first=True)
     gyro = np.gradient(attitude, H, axis=0)
     log = Recording.from_arrays(time=time, gyro=gyro, ref_q=q)
     return replace(gyro_trial(log), band_hz=BAND)
@@ -125,7 +127,8 @@ def test_a_quiet_rate_has_the_motion_of_its_band():
 
 
 def test_a_quiet_rate_has_no_noise_above_its_band():
-    was = loud(NOISE * np.random.default_rng(5).standard_normal((ROWS, 3)))
+    own_noise, noise = NOISE * np.random.default_rng(5).standard_normal((2, ROWS, 3))
+    was = loud(0.1 * own_noise, noise)
     quiet = with_quiet_rate(was)
     above = np.fft.rfftfreq(ROWS, H) > 2.0 * BEYOND * BAND
     power, before = (np.sum(np.abs(np.fft.rfft(own(t), axis=0)[above]) ** 2) for t in (quiet, was))
