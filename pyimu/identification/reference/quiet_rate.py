@@ -44,9 +44,9 @@ FEW = 1.5
 """Rows for each sample of an attitude from which on the curve through them shows a motion in part.
 """
 
-SHOWN = 3.0
-"""Times the density of what is left in the band that a motion must have above it: a tenth as much
-comes down."""
+SHOWN = 30.0
+"""Times the density of what is left in the band that a motion must have above it: as much as is
+left comes down then. A sensor that bends its signal moves above the band by less."""
 
 
 def with_quiet_rate(trial: Trial) -> Trial:
