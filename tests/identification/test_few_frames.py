@@ -38,7 +38,7 @@ def shaken(seed, hz, size, highest, of_camera=1e-3):
         (20, 0.04, 8.0),
         pytest.param(10, 0.02, 6.0, marks=pytest.mark.long),
         # Much of it is quicker than half the frames, and looks slow to them.
-        (25, 0.01, 20.0),
+        pytest.param(25, 0.01, 20.0, marks=pytest.mark.long),
         pytest.param(30, 0.04, 8.0, marks=pytest.mark.long),
     ],
 )

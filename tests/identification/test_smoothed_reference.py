@@ -112,11 +112,11 @@ def test_a_smoothed_rate_is_undone():
 @pytest.mark.parametrize(
     "kind, noise, seed",
     [
-        ("moving_average", 0.0, 17),
         ("moving_average", 0.0, 29),
-        ("moving_average", 1e-3, 31),
-        ("gaussian", 1e-3, 41),
         ("butterworth_2", 1e-3, 44),
+        pytest.param("moving_average", 0.0, 17, marks=pytest.mark.long),
+        pytest.param("moving_average", 1e-3, 31, marks=pytest.mark.long),
+        pytest.param("gaussian", 1e-3, 41, marks=pytest.mark.long),
         *(
             pytest.param(kind, noise, seed, marks=pytest.mark.long)
             for kind in SMOOTHERS
