@@ -105,14 +105,12 @@ def _completed(trial: Trial, smoothing: Smoothing, turn: np.ndarray) -> Trial:
     return whole
 
 
-def if_longer(trial: Trial) -> np.ndarray:
+def if_longer(trial: Trial, smoothing: Smoothing) -> np.ndarray:
     """What the reference of a trial, once restored, shows more (n, 3) of the motion that its gyro
-    saw where the filter over it was longer than the one that was taken out, for each share of its
-    size; zero outside segments.
+    saw where the filter over it was longer than the ``smoothing`` that was taken out, for each
+    share of its size; zero outside segments.
     """
-    out, smoothing = np.zeros(trial.y.shape), smoothing_of(trial, TURNING)
-    if smoothing is None:
-        return out
+    out = np.zeros(trial.y.shape)
     both = smoothing, replace(smoothing, size=(1.0 + LONGER) * smoothing.size)
     for (a, b), (first, last) in _within_samples(trial, smoothing.reach(trial.h)):
         seen, h = trial.y[first:last], trial.h

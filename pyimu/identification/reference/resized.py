@@ -21,7 +21,7 @@ from pyimu.identification.reference.behind import Undo
 from pyimu.identification.reference.moving import in_own_band, moving_rows
 from pyimu.model.kinds import OWN
 from pyimu.numerics.columns import unexplained
-from pyimu.recording.reference.unsmoothed import TURNING, unsmoothed
+from pyimu.recording.reference.unsmoothed import TURNING, Smoothing, unsmoothed
 
 MOST = 0.1
 """Share of a size by which one that was found may be off for what is left to be in proportion."""
@@ -34,22 +34,22 @@ def resized(trial: Trial) -> Undo | None:
     smoothing = smoothing_of(trial, TURNING)
     if smoothing is None:
         return None
-    longer = _longer(with_gyro_above(in_own_band(trial)))
+    longer = _longer(with_gyro_above(in_own_band(trial)), smoothing)
     if not abs(longer) < MOST:
         return None
     size = smoothing.size * (1.0 + longer)
     return partial(unsmoothed, smoothing=replace(smoothing, size=size))
 
 
-def _longer(trial: Trial) -> float:
-    """By which share of its size the filter over a trial's reference is longer than the one that
-    was taken out; NaN where the trial does not say.
+def _longer(trial: Trial, smoothing: Smoothing) -> float:
+    """By which share of its size the filter over a trial's reference is longer than the
+    ``smoothing`` that was taken out; NaN where the trial does not say.
 
     By least squares beside a bias, all gains and a clock: by the motion as the sensor shows it,
     whose noise is little beside it, as that of what is left is the reference's.
     """
     own, rows = trial.u[:, OWN["gyro"]], moving_rows(trial)
-    signals = (own, trial.y, slopes(trial, trial.y), if_longer(trial))
+    signals = (own, trial.y, slopes(trial, trial.y), if_longer(trial, smoothing))
     x, y, clock, made = (in_band(trial, v)[rows] for v in signals)
     along, weight = 0.0, 0.0
     for i in trial.axes:
