@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import chain, product
 
 from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
@@ -84,15 +83,26 @@ def _within_belief(old: Fit, chosen: Refined) -> Refined:
     if not beyond or seen.form is not None or seen.values:
         return chosen
     others = sorted(coefficients_of(chosen.fit.sensor, seen.effect) - beyond)
-    instead = [_instead(g, others) if beyond.intersection(g.keys) else [(g,)] for g in seen.groups]
-    ways = [tuple(chain.from_iterable(some)) for some in product(*instead)]
-    found = [refine(old, replace(seen, groups=groups)) for groups in ways if groups]
-    for other in sorted(found, key=lambda r: -r.gain):
-        if ahead(chosen, other) > SET_WIDTH:
-            break
-        if not unbelievable(other.fit, keys_of(other.screened)):
-            return other
-    return chosen
+    best, groups = chosen, seen.groups
+    for group in seen.groups:
+        if beyond.isdisjoint(group.keys):
+            continue
+        # Each axis has samples of its own, so that what stands on the others makes no difference.
+        kept = tuple(g for g in groups if g is not group)
+        ways = [w for some in _instead(group, others) if (w := kept + some)]
+        found = [refine(old, replace(seen, groups=w)) for w in ways]
+        likely = [r for r in found if ahead(chosen, r) <= SET_WIDTH]
+        best = max((r for r in likely if _believed(r, kept)), key=lambda r: r.gain, default=None)
+        if best is None:
+            return chosen
+        groups = best.screened.groups
+    return best
+
+
+def _believed(found: Refined, kept: tuple[Group, ...]) -> bool:
+    """Whether a candidate has no element beyond belief but for groups that were ``kept``."""
+    own = [g for g in found.screened.groups if g not in kept]
+    return not unbelievable(found.fit, [k for g in own for k in g.keys])
 
 
 def _instead(group: Group, others: Sequence[Coefficient]) -> list[tuple[Group, ...]]:
