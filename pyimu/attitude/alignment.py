@@ -197,16 +197,26 @@ def _compensated(
     They are as after a long time at rest; the force is None where it is not gravity.
     """
     force = np.array([0, 0, rest.gravity]) if rest.force is None else rest.force
+    rate = rest.rate if rest.underway is None else rest.underway.bias
+    rate, force = compensated_means(part, recording, rest.rows, rate, force)
+    return rate, None if rest.force is None else force
+
+
+def compensated_means(
+    part: Part, recording: Recording, rows: slice, rate: np.ndarray, force: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The mean ``rate`` (3,) rad/s and ``force`` (3,) m/s^2 of rows of a body at rest, compensated
+    for the part's own errors, as after a long time.
+    """
     known = {
-        "rate": rest.rate if rest.underway is None else rest.underway.bias,
+        "rate": rate,
         "specific_force": force,
-        "temperature": _mean(temperature_of(recording, part), rest, 25.0),
+        "temperature": _mean(temperature_of(recording, part), rows, 25.0),
     }
     for signal in EXTRA_INPUTS:
         if signal in part.signals:
-            known[signal] = _mean(
-                extra_column(recording, part, signal), rest, SIGNALS[signal].start
-            )
+            column, start = extra_column(recording, part, signal), SIGNALS[signal].start
+            known[signal] = _mean(column, rows, start)
     compensation, h = Compensation(part), ca.SX(recording.sample_period)
     values = {n: ca.SX(ca.DM(v)) for n, v in known.items()} | {"latitude_known": ca.SX(0)}
     _, rate, force, *_ = compensation.apply(
@@ -217,19 +227,19 @@ def _compensated(
         h,
     )
     rate, force = (np.array(ca.evalf(v), dtype=float).ravel() for v in (rate, force))
-    return rate, None if rest.force is None else force
+    return rate, force
 
 
-def _mean(column, rest: Rest, otherwise) -> np.ndarray:
-    """Mean of a signal (n, ...) over the rest, ``otherwise`` where it is missing there.
+def _mean(column, rows: slice, otherwise) -> np.ndarray:
+    """Mean of a signal (n, ...) over the rows, ``otherwise`` where it is missing there.
 
     A constant stays as it is.
     """
     if np.ndim(column) == 0:
         return np.atleast_1d(column)
-    rows = column[rest.rows]
-    rows = rows[np.isfinite(rows).reshape(len(rows), -1).all(axis=1)]
-    return np.atleast_1d(rows.mean(axis=0) if len(rows) else otherwise)
+    known = column[rows]
+    known = known[np.isfinite(known).reshape(len(known), -1).all(axis=1)]
+    return np.atleast_1d(known.mean(axis=0) if len(known) else otherwise)
 
 
 # Attitude

@@ -21,6 +21,7 @@ from pyimu.attitude.columns import (
     warmer,
 )
 from pyimu.attitude.driven import speed_share
+from pyimu.attitude.early_drift import early_drift
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.stillness import SWAY_TIME
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
@@ -314,6 +315,7 @@ def _at_start(log: Prepared, latitude: float, q0, yaw: Yaw, bias0, std0) -> dict
     values = _of_the_log(log)
     values |= _of_the_part(log.recording, known, None if log.declared is None else known)
     values["motion_bias"] = motion_bias(log.declared)
+    values["bias_drift"] = early_drift(log.recording, known, log.rest)
     unseen = [values[f"std0[{i}]"] for i in (4, 5, 6)] if "std0[4]" in values else BIAS_STD
     values |= initial_values(log.recording, known, log.rest, latitude, q0, yaw, unseen)
     return values | _numbered("bias0", bias0, 3) | _numbered("std0", std0, 6)

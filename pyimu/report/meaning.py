@@ -34,6 +34,7 @@ MEANING = {
     "gyro_axes": "gravity does not turn as the gyro says: axes in disorder, or of another sign?",
     "gyro_at_rest": "it turns while gravity stands still: no bias is so large; is it in deg/s, or "
     "in counts that have no zero?",
+    "gyro_drifts": "its bias changes from rest to rest more than its part says: it warms up",
     "gyro_fast": "beyond 2,000 deg/s, where the range of most gyros ends: are the numbers in deg/s "
     "where rad/s is stated?",
     "gyro_noisy": "more white noise at rest than the worst gyros have: are the numbers in deg/s "

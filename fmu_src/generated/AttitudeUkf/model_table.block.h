@@ -7,24 +7,24 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{1ca47a30-780f-d279-9203-7b11a1840c3c}"
-#define MODEL_TOKEN_FMI3 "{036861a5-5fee-8da3-f8dc-ba5c265b3e35}"
+#define MODEL_TOKEN_FMI2 "{0e67f1cb-5089-57b6-7d75-d85641ceef80}"
+#define MODEL_TOKEN_FMI3 "{a3350f25-c4be-fda0-9e4a-db6bcd1ab72c}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 18,
-    N_PARAMETERS = 64,
+    N_PARAMETERS = 65,
     N_OUTPUTS = 21,
     N_STATES = 359,
     N_CONSTANTS = 113,
     N_NOISE = 0,
-    N_VARIABLES = 79
+    N_VARIABLES = 80
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3135 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3138 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 1, START_ROWS = 976, MAX_ROWS = 757996 };
@@ -71,30 +71,31 @@ static const BlockVariable variables[] = {
     {"scale_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
     {"axes_std", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
     {"bias_noise", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
-    {"motion_bias", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
-    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, INFINITY},
-    {"rest_time", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},
-    {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
-    {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, INFINITY},
-    {"slip_std", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
-    {"speed_tolerance", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
-    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.0, INFINITY},
-    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 37, 1, 0.0, INFINITY},
-    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 38, 6, 0.0, 1000000.0},
-    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 44, 1, 0.0, INFINITY},
-    {"declination", KIND_REAL, ROLE_TUNABLE, 45, 1, -3.141592653589793, 3.141592653589793},
-    {"field_strength", KIND_REAL, ROLE_TUNABLE, 46, 1, 0.0, INFINITY},
-    {"field_dip", KIND_REAL, ROLE_TUNABLE, 47, 1, -1.5707963267948966, 1.5707963267948966},
-    {"field_strength_std", KIND_REAL, ROLE_TUNABLE, 48, 1, 0.0, INFINITY},
-    {"field_std", KIND_REAL, ROLE_TUNABLE, 49, 1, 0.0, INFINITY},
-    {"field_time", KIND_REAL, ROLE_TUNABLE, 50, 1, 0.0, INFINITY},
-    {"field_turning_std", KIND_REAL, ROLE_TUNABLE, 51, 1, 0.0, INFINITY},
-    {"field_noise", KIND_REAL, ROLE_TUNABLE, 52, 1, 0.0, INFINITY},
-    {"field_tolerance", KIND_REAL, ROLE_TUNABLE, 53, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 54, 3, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 57, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 58, 3, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 61, 3, 0.0, INFINITY},
+    {"bias_drift", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
+    {"motion_bias", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, INFINITY},
+    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},
+    {"rest_time", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
+    {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, INFINITY},
+    {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
+    {"slip_std", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
+    {"speed_tolerance", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.0, INFINITY},
+    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 37, 1, 0.0, INFINITY},
+    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 38, 1, 0.0, INFINITY},
+    {"axis_stuck_time", KIND_REAL, ROLE_TUNABLE, 39, 6, 0.0, 1000000.0},
+    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 45, 1, 0.0, INFINITY},
+    {"declination", KIND_REAL, ROLE_TUNABLE, 46, 1, -3.141592653589793, 3.141592653589793},
+    {"field_strength", KIND_REAL, ROLE_TUNABLE, 47, 1, 0.0, INFINITY},
+    {"field_dip", KIND_REAL, ROLE_TUNABLE, 48, 1, -1.5707963267948966, 1.5707963267948966},
+    {"field_strength_std", KIND_REAL, ROLE_TUNABLE, 49, 1, 0.0, INFINITY},
+    {"field_std", KIND_REAL, ROLE_TUNABLE, 50, 1, 0.0, INFINITY},
+    {"field_time", KIND_REAL, ROLE_TUNABLE, 51, 1, 0.0, INFINITY},
+    {"field_turning_std", KIND_REAL, ROLE_TUNABLE, 52, 1, 0.0, INFINITY},
+    {"field_noise", KIND_REAL, ROLE_TUNABLE, 53, 1, 0.0, INFINITY},
+    {"field_tolerance", KIND_REAL, ROLE_TUNABLE, 54, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT", KIND_REAL, ROLE_TUNABLE, 55, 3, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 58, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N", KIND_REAL, ROLE_TUNABLE, 59, 3, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K", KIND_REAL, ROLE_TUNABLE, 62, 3, 0.0, INFINITY},
     {"q", KIND_REAL, ROLE_OUTPUT, 0, 4, -INFINITY, INFINITY},
     {"roll", KIND_REAL, ROLE_OUTPUT, 4, 1, -INFINITY, INFINITY},
     {"pitch", KIND_REAL, ROLE_OUTPUT, 5, 1, -INFINITY, INFINITY},
@@ -116,12 +117,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 78,
+    SAMPLE_PERIOD = 79,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.0001, 0.0, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 0.0001, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 0.1, 0.01, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.4e-07, 2e-07, 300.0, 1e-06, 1e-07, 0.13, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.0001, 0.0, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 0.0001, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 0.1, 0.01, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.4e-07, 2e-07, 300.0, 1e-06, 1e-07, 0.13, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

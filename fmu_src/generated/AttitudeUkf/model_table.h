@@ -7,24 +7,24 @@
 #include "block.h"
 
 #define MODEL_NAME "AttitudeUkf"
-#define MODEL_TOKEN_FMI2 "{3c1bf40b-eb9a-2d10-7726-f956411dc3f9}"
-#define MODEL_TOKEN_FMI3 "{6a718dd9-747d-ebb6-bf62-ade57a88775d}"
+#define MODEL_TOKEN_FMI2 "{5ba9bf5f-a8f5-7428-f0aa-a6314ed18480}"
+#define MODEL_TOKEN_FMI3 "{f02337e4-e7e2-2686-bb93-48085f8f116e}"
 #define MODEL_CONSTANTS
 #define MODEL_SEED UINT64_C(0)
 #define MODEL_SAMPLE_PERIOD 0.0010245901639344263
 
 enum {
     N_INPUTS = 18,
-    N_PARAMETERS = 64,
+    N_PARAMETERS = 65,
     N_OUTPUTS = 21,
     N_STATES = 359,
     N_CONSTANTS = 113,
     N_NOISE = 0,
-    N_VARIABLES = 105
+    N_VARIABLES = 106
 };
 
 /* Room that the generated functions need. */
-enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3135 };
+enum { WORK_ARG = 45, WORK_RES = 29, WORK_IW = 0, WORK_W = 3138 };
 
 /* Rows of inputs and outputs. */
 enum { IN_BLOCKS = 0, START_ROWS = 1, MAX_ROWS = 1 };
@@ -81,41 +81,42 @@ static const BlockVariable variables[] = {
     {"scale_std", KIND_REAL, ROLE_TUNABLE, 26, 1, 0.0, INFINITY},
     {"axes_std", KIND_REAL, ROLE_TUNABLE, 27, 1, 0.0, INFINITY},
     {"bias_noise", KIND_REAL, ROLE_TUNABLE, 28, 1, 0.0, INFINITY},
-    {"motion_bias", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
-    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, INFINITY},
-    {"rest_time", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},
-    {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
-    {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, INFINITY},
-    {"slip_std", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
-    {"speed_tolerance", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
-    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.0, INFINITY},
-    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 37, 1, 0.0, INFINITY},
-    {"axis_stuck_time[1]", KIND_REAL, ROLE_TUNABLE, 38, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[2]", KIND_REAL, ROLE_TUNABLE, 39, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[3]", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[4]", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[5]", KIND_REAL, ROLE_TUNABLE, 42, 1, 0.0, 1000000.0},
-    {"axis_stuck_time[6]", KIND_REAL, ROLE_TUNABLE, 43, 1, 0.0, 1000000.0},
-    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 44, 1, 0.0, INFINITY},
-    {"declination", KIND_REAL, ROLE_TUNABLE, 45, 1, -3.141592653589793, 3.141592653589793},
-    {"field_strength", KIND_REAL, ROLE_TUNABLE, 46, 1, 0.0, INFINITY},
-    {"field_dip", KIND_REAL, ROLE_TUNABLE, 47, 1, -1.5707963267948966, 1.5707963267948966},
-    {"field_strength_std", KIND_REAL, ROLE_TUNABLE, 48, 1, 0.0, INFINITY},
-    {"field_std", KIND_REAL, ROLE_TUNABLE, 49, 1, 0.0, INFINITY},
-    {"field_time", KIND_REAL, ROLE_TUNABLE, 50, 1, 0.0, INFINITY},
-    {"field_turning_std", KIND_REAL, ROLE_TUNABLE, 51, 1, 0.0, INFINITY},
-    {"field_noise", KIND_REAL, ROLE_TUNABLE, 52, 1, 0.0, INFINITY},
-    {"field_tolerance", KIND_REAL, ROLE_TUNABLE, 53, 1, 0.0, INFINITY},
-    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 54, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 55, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 56, 1, -INFINITY, INFINITY},
-    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 57, 1, -INFINITY, INFINITY},
-    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 58, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 59, 1, 0.0, INFINITY},
-    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 60, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 61, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 62, 1, 0.0, INFINITY},
-    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 63, 1, 0.0, INFINITY},
+    {"bias_drift", KIND_REAL, ROLE_TUNABLE, 29, 1, 0.0, INFINITY},
+    {"motion_bias", KIND_REAL, ROLE_TUNABLE, 30, 1, 0.0, INFINITY},
+    {"stationary_std", KIND_REAL, ROLE_TUNABLE, 31, 1, 0.0, INFINITY},
+    {"rest_time", KIND_REAL, ROLE_TUNABLE, 32, 1, 0.0, INFINITY},
+    {"rest_rate_tolerance", KIND_REAL, ROLE_TUNABLE, 33, 1, 0.0, INFINITY},
+    {"rest_force_tolerance", KIND_REAL, ROLE_TUNABLE, 34, 1, 0.0, INFINITY},
+    {"slip_std", KIND_REAL, ROLE_TUNABLE, 35, 1, 0.0, INFINITY},
+    {"speed_tolerance", KIND_REAL, ROLE_TUNABLE, 36, 1, 0.0, INFINITY},
+    {"lost_rate_std", KIND_REAL, ROLE_TUNABLE, 37, 1, 0.0, INFINITY},
+    {"stuck_time", KIND_REAL, ROLE_TUNABLE, 38, 1, 0.0, INFINITY},
+    {"axis_stuck_time[1]", KIND_REAL, ROLE_TUNABLE, 39, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[2]", KIND_REAL, ROLE_TUNABLE, 40, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[3]", KIND_REAL, ROLE_TUNABLE, 41, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[4]", KIND_REAL, ROLE_TUNABLE, 42, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[5]", KIND_REAL, ROLE_TUNABLE, 43, 1, 0.0, 1000000.0},
+    {"axis_stuck_time[6]", KIND_REAL, ROLE_TUNABLE, 44, 1, 0.0, 1000000.0},
+    {"heading_memory", KIND_REAL, ROLE_TUNABLE, 45, 1, 0.0, INFINITY},
+    {"declination", KIND_REAL, ROLE_TUNABLE, 46, 1, -3.141592653589793, 3.141592653589793},
+    {"field_strength", KIND_REAL, ROLE_TUNABLE, 47, 1, 0.0, INFINITY},
+    {"field_dip", KIND_REAL, ROLE_TUNABLE, 48, 1, -1.5707963267948966, 1.5707963267948966},
+    {"field_strength_std", KIND_REAL, ROLE_TUNABLE, 49, 1, 0.0, INFINITY},
+    {"field_std", KIND_REAL, ROLE_TUNABLE, 50, 1, 0.0, INFINITY},
+    {"field_time", KIND_REAL, ROLE_TUNABLE, 51, 1, 0.0, INFINITY},
+    {"field_turning_std", KIND_REAL, ROLE_TUNABLE, 52, 1, 0.0, INFINITY},
+    {"field_noise", KIND_REAL, ROLE_TUNABLE, 53, 1, 0.0, INFINITY},
+    {"field_tolerance", KIND_REAL, ROLE_TUNABLE, 54, 1, 0.0, INFINITY},
+    {"gyro_error.thermal_bias.kT[1]", KIND_REAL, ROLE_TUNABLE, 55, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[2]", KIND_REAL, ROLE_TUNABLE, 56, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.kT[3]", KIND_REAL, ROLE_TUNABLE, 57, 1, -INFINITY, INFINITY},
+    {"gyro_error.thermal_bias.T0", KIND_REAL, ROLE_TUNABLE, 58, 1, -INFINITY, INFINITY},
+    {"gyro_error.angle_random_walk.N[1]", KIND_REAL, ROLE_TUNABLE, 59, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[2]", KIND_REAL, ROLE_TUNABLE, 60, 1, 0.0, INFINITY},
+    {"gyro_error.angle_random_walk.N[3]", KIND_REAL, ROLE_TUNABLE, 61, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[1]", KIND_REAL, ROLE_TUNABLE, 62, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[2]", KIND_REAL, ROLE_TUNABLE, 63, 1, 0.0, INFINITY},
+    {"gyro_error.rate_random_walk.K[3]", KIND_REAL, ROLE_TUNABLE, 64, 1, 0.0, INFINITY},
     {"q[1]", KIND_REAL, ROLE_OUTPUT, 0, 1, -INFINITY, INFINITY},
     {"q[2]", KIND_REAL, ROLE_OUTPUT, 1, 1, -INFINITY, INFINITY},
     {"q[3]", KIND_REAL, ROLE_OUTPUT, 2, 1, -INFINITY, INFINITY},
@@ -142,12 +143,12 @@ static const BlockVariable variables[] = {
 
 /* Value references that mean something to every block. */
 enum {
-    SAMPLE_PERIOD = 104,
+    SAMPLE_PERIOD = 105,
     SEED = N_VARIABLES, /* none: there is no noise */
 };
 
 static const double input_starts[] = {0.0, 0.0, 0.0, 0.0, 0.0, 9.80665, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.0001, 0.0, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 0.0001, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 0.1, 0.01, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.4e-07, 2e-07, 300.0, 1e-06, 1e-07, 0.13, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
+static const double parameter_starts[] = {10.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.01, 0.01, 0.01, 9.80665, 0.0001, 0.0, 0.5, 0.2, 0.25, 1.0, 0.3, 1.0, 0.0, 0.0001, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-05, 1.5, 0.005, 0.2, 0.1, 0.01, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.4e-07, 2e-07, 300.0, 1e-06, 1e-07, 0.13, 0.00034906585039886593, 0.0009773843811168245, 0.0008726646259971648, 25.0, 6.0400027647350424e-05, 6.940010882346785e-05, 5.960008507351969e-05, 2.6503147900654633e-06, 4.007793097172164e-06, 5.187506387872035e-06};
 
 /* The noise stream of each channel; there is none. */
 static const uint64_t noise_channels[] = {

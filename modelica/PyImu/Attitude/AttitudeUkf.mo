@@ -64,6 +64,9 @@ block AttitudeUkf "Unscented attitude filter of the part imt30, in C"
   parameter Real biasNoise(min=0) = 0
     "Root density of the walk of the bias over the rate [1/sqrt(s)]"
     annotation(Dialog(group="Filter"));
+  parameter Real biasDrift(min=0) = 0
+    "Root density of the walk of the bias beyond that of the part, as of a gyro that warms up, until rests show how large it is [rad/s/sqrt(s)]"
+    annotation(Dialog(group="Filter"));
   parameter Real motionBias(unit="rad/s", min=0) = 0
     "Standard deviation by which the bias of the gyro is another while the body turns fast, by 0.5 rad/s and more over 10 s, than at rest"
     annotation(Dialog(group="Filter"));
@@ -219,12 +222,12 @@ protected
   Modelica.Blocks.Interfaces.RealInput speedVarianceUsed;
   Modelica.Blocks.Interfaces.BooleanInput speedValidUsed;
   Modelica.Blocks.Interfaces.RealInput magUsed[3];
-  final parameter Real p[64] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
+  final parameter Real p[65] = {latitude, q0[1], q0[2], q0[3], q0[4], bias0[1], bias0[2],
     bias0[3], std0[1], std0[2], std0[3], std0[4], std0[5], std0[6], gravity, accelStd,
     accelBiasStd, accelCorrelationTime, gravityWalk, gravityTolerance, motionTolerance,
     steadyTolerance, motionTime, pushStd, motionShare, rateNoise, scaleStd, axesStd, biasNoise,
-    motionBias, stationaryStd, restTime, restRateTolerance, restForceTolerance, slipStd,
-    speedTolerance, lostRateStd, stuckTime, axisStuckTime[1], axisStuckTime[2],
+    biasDrift, motionBias, stationaryStd, restTime, restRateTolerance, restForceTolerance,
+    slipStd, speedTolerance, lostRateStd, stuckTime, axisStuckTime[1], axisStuckTime[2],
     axisStuckTime[3], axisStuckTime[4], axisStuckTime[5], axisStuckTime[6], headingMemory,
     declination, fieldStrength, fieldDip, fieldStrengthStd, fieldStd, fieldTime,
     fieldTurningStd, fieldNoise, fieldTolerance, gyroThermalBias_kT[1], gyroThermalBias_kT[2],
@@ -260,6 +263,7 @@ equation
   assert(scaleStd >= 0, "AttitudeUkf: scaleStd must not be below 0");
   assert(axesStd >= 0, "AttitudeUkf: axesStd must not be below 0");
   assert(biasNoise >= 0, "AttitudeUkf: biasNoise must not be below 0");
+  assert(biasDrift >= 0, "AttitudeUkf: biasDrift must not be below 0");
   assert(motionBias >= 0, "AttitudeUkf: motionBias must not be below 0");
   assert(stationaryStd >= 0, "AttitudeUkf: stationaryStd must not be below 0");
   assert(restTime >= 0, "AttitudeUkf: restTime must not be below 0");
@@ -388,6 +392,9 @@ bias of the accelerometer, axes of either. It turns with the body, and nothing i
 it.</td></tr>
 <tr><td>biasNoise</td><td>Root density of the walk of the bias over the rate: a gyro that feels
 forces has another bias when it has turned over.</td></tr>
+<tr><td>biasDrift</td><td>Root density of the walk of the bias beyond that of the part, as of a gyro
+that warms up, until rests show how large it is. A log with several rests tells it from the
+start.</td></tr>
 <tr><td>motionBias</td><td>Standard deviation by which the bias of the gyro is another while the
 body turns fast, by 0.5 rad/s and more over 10 s, than at rest; its share of that where it turns
 less. As much again it changes in 100 s of motion. What the model of a gyro lacks shows in

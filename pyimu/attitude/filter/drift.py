@@ -2,7 +2,8 @@
 
 A part has the walk of a gyro on a bench. One that has just been switched on warms up, and drifts a
 hundred times as fast. A rest shows the bias anew: where it is farther from what was known than
-walk and noise account for, it has drifted, and until the next rest it will again.
+walk and noise account for, it has drifted, and until the next rest it will again. How it drifts
+before the second rest a log tells beforehand (``pyimu.attitude.early_drift``), by a setting.
 """
 
 from __future__ import annotations
@@ -41,8 +42,8 @@ class Drift:
     apart: ca.SX
 
     @classmethod
-    def start(cls) -> Drift:
-        return cls(ca.SX(0), ca.SX(0), ca.SX(0))
+    def start(cls, density: ca.SX | float = 0.0) -> Drift:
+        return cls(ca.SX(density), ca.SX(0), ca.SX(0))
 
     def pack(self) -> tuple:
         return tuple(vars(self).values())

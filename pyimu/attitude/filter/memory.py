@@ -194,7 +194,7 @@ def start(compensation: Compensation, p) -> tuple[Estimate, ca.SX]:
         MeanForce(ca.SX.zeros(3), ca.SX(0), ca.SX(0)),
         Motion.start(first_std(at), at["motion_time"], first_push(at)),
         Stillness.start(),
-        Drift.start(),
+        Drift.start(at["bias_drift"] ** 2),
         safe=ca.SX.zeros(6),
         later=ca.SX.zeros(6),
         held=ca.vertcat(0, 0, 0, 0, 0, at["gravity"], 25, *held),

@@ -299,6 +299,13 @@ SETTINGS = (
         0.0,
     ),
     _setting(
+        "bias_drift",
+        "rad/s/sqrt(s)",
+        "root density of the walk of the bias beyond that of the part, as of a gyro that warms up, "
+        "until rests show how large it is. A log with several rests tells it from the start",
+        0.0,
+    ),
+    _setting(
         "motion_bias",
         "rad/s",
         "standard deviation by which the bias of the gyro is another while the body turns fast, by "

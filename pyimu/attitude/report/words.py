@@ -116,6 +116,8 @@ def _about_columns(a: Outcome) -> list[str]:
         )
     if "even_turn" in kinds:
         found.append(_about_even_turn(kinds["even_turn"]))
+    if "gyro_drifts" in kinds:
+        found.append(_about_drift(kinds["gyro_drifts"]))
     found += about_contradicted(a.findings)
     if "heading_late" in kinds:
         found.append(_about_late(kinds["heading_late"]))
@@ -198,6 +200,16 @@ def _about_gyro(finding: Finding) -> str:
         f"or the reference turns: numbers in {right} under a header of {stated} look so, or "
         f"converted twice; write gyro_x [{right}] in the log's header, or map it there with "
         "--columns"
+    )
+
+
+def _about_drift(finding: Finding) -> str:
+    """What a gyro that warms up means for the estimate."""
+    by = quantity(finding.detail["in_a_minute"], "rad/s")
+    return (
+        f"the gyro's bias is another from rest to rest, by some {by} in a minute at the start: "
+        "more than its part accounts for, as of a gyro that warms up; the standard deviations have "
+        "it"
     )
 
 

@@ -159,7 +159,7 @@ void casadi_copy(const casadi_real* restrict x, casadi_int n, casadi_real* restr
 
 static const casadi_int casadi_s0[3] = {359, 1, 1};
 static const casadi_int casadi_s1[3] = {18, 1, 1};
-static const casadi_int casadi_s2[3] = {64, 1, 1};
+static const casadi_int casadi_s2[3] = {65, 1, 1};
 static const casadi_int casadi_s3[3] = {0, 1, 1};
 static const casadi_int casadi_s4[3] = {1, 1, 1};
 static const casadi_int casadi_s5[3] = {21, 1, 1};
@@ -169,78 +169,78 @@ static const casadi_real casadi_c0[2] = {0., 64.};
 static const casadi_real casadi_zeros[359] = 
   {0.};
 
-/* constants:(i0[64],i1)->(o0[113]) */
+/* constants:(i0[65],i1)->(o0[113]) */
 static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
   casadi_real *restrict o0=res[0];
-  o0[0]=i0[57];
-  o0[1]=i0[54];
-  o0[2]=i0[55];
-  o0[3]=i0[56];
+  o0[0]=i0[58];
+  o0[1]=i0[55];
+  o0[2]=i0[56];
+  o0[3]=i0[57];
   o0[14]=i1[0];
   const casadi_real v6=3.141592653589793/i1[0];
   o0[17]=v6;
   const casadi_real v7=v6*v6;
   o0[4]=v7;
-  o0[20]=i0[37];
-  const casadi_real v10=0.0<i0[37];
+  o0[20]=i0[38];
+  const casadi_real v10=0.0<i0[38];
   o0[21]=v10;
-  const casadi_real v11=i0[37]-i1[0];
+  const casadi_real v11=i0[38]-i1[0];
   const casadi_real v12=v10?v11:0;
   const casadi_real v13=!v10;
   const casadi_real v15=v13?INFINITY:0;
   const casadi_real v16=v12+v15;
   o0[5]=v16;
-  o0[30]=i0[38];
-  const casadi_real v18=0.0<i0[38];
+  o0[30]=i0[39];
+  const casadi_real v18=0.0<i0[39];
   o0[31]=v18;
-  const casadi_real v19=i0[38]-i1[0];
+  const casadi_real v19=i0[39]-i1[0];
   const casadi_real v20=v18?v19:0;
   const casadi_real v21=!v18;
   const casadi_real v22=v21?INFINITY:0;
   const casadi_real v23=v20+v22;
   o0[6]=v23;
-  o0[32]=i0[39];
-  const casadi_real v25=0.0<i0[39];
+  o0[32]=i0[40];
+  const casadi_real v25=0.0<i0[40];
   o0[33]=v25;
-  const casadi_real v26=i0[39]-i1[0];
+  const casadi_real v26=i0[40]-i1[0];
   const casadi_real v27=v25?v26:0;
   const casadi_real v28=!v25;
   const casadi_real v29=v28?INFINITY:0;
   const casadi_real v30=v27+v29;
   o0[7]=v30;
-  o0[34]=i0[40];
-  const casadi_real v32=0.0<i0[40];
+  o0[34]=i0[41];
+  const casadi_real v32=0.0<i0[41];
   o0[35]=v32;
-  const casadi_real v33=i0[40]-i1[0];
+  const casadi_real v33=i0[41]-i1[0];
   const casadi_real v34=v32?v33:0;
   const casadi_real v35=!v32;
   const casadi_real v36=v35?INFINITY:0;
   const casadi_real v37=v34+v36;
   o0[8]=v37;
-  o0[18]=i0[41];
-  const casadi_real v39=0.0<i0[41];
+  o0[18]=i0[42];
+  const casadi_real v39=0.0<i0[42];
   o0[19]=v39;
-  const casadi_real v40=i0[41]-i1[0];
+  const casadi_real v40=i0[42]-i1[0];
   const casadi_real v41=v39?v40:0;
   const casadi_real v42=!v39;
   const casadi_real v43=v42?INFINITY:0;
   const casadi_real v44=v41+v43;
   o0[9]=v44;
-  o0[22]=i0[42];
-  const casadi_real v46=0.0<i0[42];
+  o0[22]=i0[43];
+  const casadi_real v46=0.0<i0[43];
   o0[23]=v46;
-  const casadi_real v47=i0[42]-i1[0];
+  const casadi_real v47=i0[43]-i1[0];
   const casadi_real v48=v46?v47:0;
   const casadi_real v49=!v46;
   const casadi_real v50=v49?INFINITY:0;
   const casadi_real v51=v48+v50;
   o0[10]=v51;
-  o0[24]=i0[43];
-  const casadi_real v53=0.0<i0[43];
+  o0[24]=i0[44];
+  const casadi_real v53=0.0<i0[44];
   o0[25]=v53;
-  const casadi_real v54=i0[43]-i1[0];
+  const casadi_real v54=i0[44]-i1[0];
   const casadi_real v55=v53?v54:0;
   const casadi_real v56=!v53;
   const casadi_real v57=v56?INFINITY:0;
@@ -248,8 +248,8 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   o0[11]=v58;
   const casadi_real v59=2.*i1[0];
   o0[12]=v59;
-  o0[92]=i0[31];
-  const casadi_real v62=casadi_fmin(i0[31],3.0);
+  o0[92]=i0[32];
+  const casadi_real v62=casadi_fmin(i0[32],3.0);
   o0[13]=v62;
   o0[79]=i0[26];
   o0[80]=i0[27];
@@ -258,36 +258,36 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   o0[15]=v66;
   const casadi_real v67=-v6;
   o0[16]=v67;
-  const casadi_real v69=i0[32]*i0[32];
-  const casadi_real v72=i0[58]*i0[58];
+  const casadi_real v69=i0[33]*i0[33];
+  const casadi_real v72=i0[59]*i0[59];
   const casadi_real v73=1./i1[0];
   const casadi_real v74=fabs(v73);
   o0[72]=v74;
   const casadi_real v75=v72*v74;
-  const casadi_real v77=i0[59]*i0[59];
+  const casadi_real v77=i0[60]*i0[60];
   const casadi_real v78=v77*v74;
   const casadi_real v79=v75+v78;
-  const casadi_real v81=i0[60]*i0[60];
+  const casadi_real v81=i0[61]*i0[61];
   const casadi_real v82=v81*v74;
   const casadi_real v83=v79+v82;
   const casadi_real v84=10.0*v83;
   const casadi_real v85=v69+v84;
   o0[26]=v85;
-  const casadi_real v87=i0[33]*i0[33];
+  const casadi_real v87=i0[34]*i0[34];
   const casadi_real v89=v87+3.0000000000000004e-07;
   o0[27]=v89;
-  const casadi_real v91=0.1*i0[33];
+  const casadi_real v91=0.1*i0[34];
   const casadi_real v92=v91*v91;
   const casadi_real v94=3.681818181818183e-07*i1[0];
   const casadi_real v95=v92+v94;
   o0[28]=v95;
-  const casadi_real v97=0.5*i0[32];
+  const casadi_real v97=0.5*i0[33];
   const casadi_real v98=v97*v97;
   const casadi_real v100=12.272727272727275*v83;
   const casadi_real v101=v100*i1[0];
   const casadi_real v102=v98+v101;
   o0[29]=v102;
-  const casadi_real v103=0.0<i0[31];
+  const casadi_real v103=0.0<i0[32];
   o0[36]=v103;
   const casadi_real v105=fabs(i0[0]);
   const casadi_real v107=v105<=1.5707963267948966;
@@ -372,7 +372,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   o0[47]=v198;
   const casadi_real v199=v107?v169:0;
   o0[48]=v199;
-  const casadi_real v201=i1[0]*i0[30];
+  const casadi_real v201=i1[0]*i0[31];
   const casadi_real v202=v201*v201;
   o0[49]=v202;
   const casadi_real v203=1e-18*i1[0];
@@ -380,7 +380,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   const casadi_real v205=i0[25]*i0[25];
   o0[51]=v205;
   const casadi_real v206=v72*i1[0];
-  const casadi_real v208=i0[61]*i0[61];
+  const casadi_real v208=i0[62]*i0[62];
   const casadi_real v209=i1[0]*i1[0];
   o0[73]=v209;
   const casadi_real v210=i1[0]*v209;
@@ -388,7 +388,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   const casadi_real v212=v211/3.0;
   const casadi_real v213=v206+v212;
   o0[52]=v213;
-  const casadi_real v215=i0[36]*i0[36];
+  const casadi_real v215=i0[37]*i0[37];
   o0[53]=v215;
   const casadi_real v217=v189/6.0;
   o0[54]=v217;
@@ -403,7 +403,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   const casadi_real v227=v225/2.0;
   o0[59]=v227;
   const casadi_real v228=v77*i1[0];
-  const casadi_real v230=i0[62]*i0[62];
+  const casadi_real v230=i0[63]*i0[63];
   const casadi_real v231=v230*v210;
   const casadi_real v232=v231/3.0;
   const casadi_real v233=v228+v232;
@@ -412,7 +412,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   const casadi_real v235=v234/2.0;
   o0[61]=v235;
   const casadi_real v236=v81*i1[0];
-  const casadi_real v238=i0[63]*i0[63];
+  const casadi_real v238=i0[64]*i0[64];
   const casadi_real v239=v238*v210;
   const casadi_real v240=v239/3.0;
   const casadi_real v241=v236+v240;
@@ -424,7 +424,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   o0[64]=v244;
   const casadi_real v246=i0[28]*i0[28];
   o0[65]=v246;
-  const casadi_real v248=i0[29]*i0[29];
+  const casadi_real v248=i0[30]*i0[30];
   o0[66]=v248;
   const casadi_real v250=100.0+i1[0];
   const casadi_real v251=1./v250;
@@ -449,7 +449,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   const casadi_real v267=v262*v266;
   const casadi_real v268=v209*v267;
   o0[76]=v268;
-  o0[77]=i0[35];
+  o0[77]=i0[36];
   const casadi_real v270=10.0*i1[0];
   o0[78]=v270;
   const casadi_real v272=i0[18]*i0[18];
@@ -480,15 +480,15 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   o0[89]=v293;
   const casadi_real v294=i1[0]/2.0;
   o0[91]=v294;
-  const casadi_real v296=casadi_fmax(i0[31],2.5);
+  const casadi_real v296=casadi_fmax(i0[32],2.5);
   o0[93]=v296;
   const casadi_real v298=49.0*v189;
   const casadi_real v300=casadi_fmin(v298,4e-06);
   o0[94]=v300;
   const casadi_real v302=63.0*i1[0];
   o0[95]=v302;
-  o0[96]=i0[44];
-  const casadi_real v305=0.0<i0[53];
+  o0[96]=i0[45];
+  const casadi_real v305=0.0<i0[54];
   o0[97]=v305;
   const casadi_real v307=0.01*i0[22];
   o0[98]=v307;
@@ -500,7 +500,7 @@ static int casadi_f1(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   const casadi_real v312=i0[17]+i0[22];
   const casadi_real v313=v312-1.0;
   o0[101]=v313;
-  const casadi_real v315=0.03*i0[33];
+  const casadi_real v315=0.03*i0[34];
   const casadi_real v316=v315*v315;
   o0[102]=v316;
   const casadi_real v317=2.*i0[22];
@@ -14042,7 +14042,7 @@ static int casadi_f3(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   return 0;
 }
 
-/* no_update:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
+/* no_update:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
 static int casadi_f10(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -14558,7 +14558,7 @@ static int casadi_f10(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* usual_update:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
+/* usual_update:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
 static int casadi_f11(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -17931,7 +17931,7 @@ static int casadi_f13(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* by_zero_rate:(i0[90],i1[3],i2[64],i3,i4[3])->(o0[90]) */
+/* by_zero_rate:(i0[90],i1[3],i2[65],i3,i4[3])->(o0[90]) */
 static int casadi_f14(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -18038,13 +18038,13 @@ static int casadi_f14(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v130=v128-v129;
   const casadi_real v132=v130+i0[22];
   const casadi_real v133=v127+v132;
-  const casadi_real v135=i2[58]*i2[58];
+  const casadi_real v135=i2[59]*i2[59];
   const casadi_real v137=1./i3[0];
   const casadi_real v138=fabs(v137);
   const casadi_real v139=v135*v138;
   const casadi_real v142=i4[0]?i4[2]:0;
   const casadi_real v143=!i4[0];
-  const casadi_real v145=i2[30]*i2[30];
+  const casadi_real v145=i2[31]*i2[31];
   const casadi_real v146=v143?v145:0;
   const casadi_real v147=v142+v146;
   const casadi_real v148=v139+v147;
@@ -18105,7 +18105,7 @@ static int casadi_f14(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v213=v211-v212;
   const casadi_real v215=v213+i0[25];
   const casadi_real v216=v210+v215;
-  const casadi_real v218=i2[59]*i2[59];
+  const casadi_real v218=i2[60]*i2[60];
   const casadi_real v219=v218*v138;
   const casadi_real v220=v219+v147;
   const casadi_real v221=v153*v198;
@@ -18177,7 +18177,7 @@ static int casadi_f14(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v294=v292-v293;
   const casadi_real v296=v294+i0[27];
   const casadi_real v297=v291+v296;
-  const casadi_real v299=i2[60]*i2[60];
+  const casadi_real v299=i2[61]*i2[61];
   const casadi_real v300=v299*v138;
   const casadi_real v301=v300+v147;
   const casadi_real v302=v153*v260;
@@ -19725,7 +19725,7 @@ static int casadi_f15(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* update_at_rest:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
+/* update_at_rest:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
 static int casadi_f12(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_real **res1=res+4, *rr, *w00=w+132, *w01=res[2] ? res[2] : w+222, *w02=w+243, *w03=w+333, w05, w07, w08, w09, *w10=w+336, *w11=res[0] ? res[0] : w+339;
   const casadi_real **arg1=arg+8, *wr00, *wr01, *wr04, *wr06, *wr12, *wr13;
@@ -19783,7 +19783,7 @@ static int casadi_f12(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* by_field:(i0[132],i1[90],i2[18],i3[64],i4,i5[3],i6[19])->(o0[132]) */
+/* by_field:(i0[132],i1[90],i2[18],i3[65],i4,i5[3],i6[19])->(o0[132]) */
 static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -19805,7 +19805,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v20=0.0<v19;
   const casadi_real v22=v19<=1000000000000.0;
   const casadi_real v23=v20*v22;
-  const casadi_real v25=0.0<i3[53];
+  const casadi_real v25=0.0<i3[54];
   const casadi_real v26=v23*v25;
   const casadi_real v27=v26?i2[15]:0;
   const casadi_real v28=!v26;
@@ -20076,7 +20076,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v342=v340+v341;
   const casadi_real v343=v342*v342;
   const casadi_real v344=v330+v343;
-  const casadi_real v345=i3[53]*i3[53];
+  const casadi_real v345=i3[54]*i3[54];
   const casadi_real v346=v344*v345;
   const casadi_real v349=v319?i0[95]:0;
   const casadi_real v350=v327?i0[95]:0;
@@ -20318,10 +20318,10 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v604=i0[112]*v580;
   const casadi_real v605=v602*v604;
   const casadi_real v606=v601-v605;
-  const casadi_real v608=i3[58]*i3[58];
-  const casadi_real v610=i3[59]*i3[59];
+  const casadi_real v608=i3[59]*i3[59];
+  const casadi_real v610=i3[60]*i3[60];
   const casadi_real v611=v608+v610;
-  const casadi_real v613=i3[60]*i3[60];
+  const casadi_real v613=i3[61]*i3[61];
   const casadi_real v614=v611+v613;
   const casadi_real v615=4.0*v614;
   const casadi_real v616=v615*i4[0];
@@ -20345,7 +20345,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v637=v636/v620;
   const casadi_real v638=v633+v637;
   const casadi_real v640=v638+1e-20;
-  const casadi_real v642=i3[49]*i3[49];
+  const casadi_real v642=i3[50]*i3[50];
   const casadi_real v644=0.25*i0[95];
   const casadi_real v645=v642+v644;
   const casadi_real v646=v645/v630;
@@ -20355,7 +20355,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v652=casadi_fmax(v647,1e-30);
   const casadi_real v653=i0[103]/v652;
   const casadi_real v654=1.0+v653;
-  const casadi_real v655=i3[50]*v654;
+  const casadi_real v655=i3[51]*v654;
   const casadi_real v656=v655+i4[0];
   const casadi_real v657=v655/v656;
   const casadi_real v659=i0[108]-v650;
@@ -21922,7 +21922,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v2318=v2317*v2317;
   const casadi_real v2319=v2309+v2318;
   const casadi_real v2320=v2290+v2319;
-  const casadi_real v2322=i3[52]*i3[52];
+  const casadi_real v2322=i3[53]*i3[53];
   const casadi_real v2324=v368*v368;
   const casadi_real v2325=0.4*v2324;
   const casadi_real v2326=v2322/v2325;
@@ -21934,7 +21934,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v2333=v365*v53;
   const casadi_real v2335=0.2+v53;
   const casadi_real v2336=v2333/v2335;
-  const casadi_real v2339=0.6366197723675814*i3[45];
+  const casadi_real v2339=0.6366197723675814*i3[46];
   const casadi_real v2340=v2339+0.5;
   const casadi_real v2341=floor(v2340);
   const casadi_real v2342=v2341/4.0;
@@ -21949,7 +21949,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v2351=2.*v2350;
   const casadi_real v2352=v2345-v2351;
   const casadi_real v2354=1.570796251296997*v2341;
-  const casadi_real v2355=i3[45]-v2354;
+  const casadi_real v2355=i3[46]-v2354;
   const casadi_real v2357=7.549789415861596e-08*v2341;
   const casadi_real v2358=v2355-v2357;
   const casadi_real v2360=5.390302858158119e-15*v2341;
@@ -22170,7 +22170,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v2613=v2612*v2583;
   const casadi_real v2614=v2582+v2613;
   o0[99]=v2614;
-  const casadi_real v2615=v53/i3[50];
+  const casadi_real v2615=v53/i3[51];
   const casadi_real v2616=v619+v2615;
   const casadi_real v2617=v2571*v2616;
   const casadi_real v2618=fabs(i0[92]);
@@ -22244,7 +22244,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v2686=v319?i0[103]:0;
   const casadi_real v2687=v327?i0[103]:0;
   const casadi_real v2688=v2686+v2687;
-  const casadi_real v2690=0.0<i3[51];
+  const casadi_real v2690=0.0<i3[52];
   const casadi_real v2691=20.0+v2617;
   const casadi_real v2692=v2617/v2691;
   const casadi_real v2693=v2633*v2633;
@@ -22270,7 +22270,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v2713=casadi_fmax(v2712,1e-30);
   const casadi_real v2714=v2688/v2713;
   const casadi_real v2715=1.0+v2714;
-  const casadi_real v2716=i3[50]*v2715;
+  const casadi_real v2716=i3[51]*v2715;
   const casadi_real v2717=v2676/v2716;
   const casadi_real v2718=v2717/2.0;
   const casadi_real v2719=1.0+v2718;
@@ -23466,7 +23466,7 @@ static int casadi_f17(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* update_in_field:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
+/* update_in_field:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
 static int casadi_f16(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_int i;
   casadi_real **res1=res+4, *rr, *w00=w+217, *w01=res[2] ? res[2] : w+307, *w02=w+328, *w04=res[3] ? res[3] : w+418, *w05=w+460, w08, *w09=w+592, *w11=w+595, *w12=res[0] ? res[0] : w+727;
@@ -23527,7 +23527,7 @@ static int casadi_f16(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* update_at_rest_in_field:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
+/* update_at_rest_in_field:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
 static int casadi_f18(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_int i;
   casadi_real **res1=res+4, *rr, *w00=w+217, *w01=res[2] ? res[2] : w+307, *w02=w+328, *w03=w+418, w05, w07, w08, w09, *w10=w+421, *w11=w+424;
@@ -23606,7 +23606,7 @@ static int casadi_f18(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* no_update_calibrated:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
+/* no_update_calibrated:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
 static int casadi_f19(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -24056,7 +24056,7 @@ static int casadi_f19(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* usual_update_calibrated:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
+/* usual_update_calibrated:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
 static int casadi_f20(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -25661,7 +25661,7 @@ static int casadi_f20(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* update_at_rest_calibrated:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
+/* update_at_rest_calibrated:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
 static int casadi_f21(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -26444,13 +26444,13 @@ static int casadi_f21(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v852=i0[22]-v851;
   const casadi_real v853=v837+v852;
   const casadi_real v854=v834+v853;
-  const casadi_real v856=i3[58]*i3[58];
+  const casadi_real v856=i3[59]*i3[59];
   const casadi_real v858=1./i4[0];
   const casadi_real v859=fabs(v858);
   const casadi_real v860=v856*v859;
   const casadi_real v863=i7[7]?i7[9]:0;
   const casadi_real v864=!i7[7];
-  const casadi_real v866=i3[30]*i3[30];
+  const casadi_real v866=i3[31]*i3[31];
   const casadi_real v867=v864?v866:0;
   const casadi_real v868=v863+v867;
   const casadi_real v869=v860+v868;
@@ -26624,7 +26624,7 @@ static int casadi_f21(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v1044=i0[25]-v1043;
   const casadi_real v1045=v1029+v1044;
   const casadi_real v1046=v1026+v1045;
-  const casadi_real v1048=i3[59]*i3[59];
+  const casadi_real v1048=i3[60]*i3[60];
   const casadi_real v1049=v1048*v859;
   const casadi_real v1050=v1049+v868;
   const casadi_real v1051=v874*v1014;
@@ -26820,7 +26820,7 @@ static int casadi_f21(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v1246=i0[27]-v1245;
   const casadi_real v1247=v1231+v1246;
   const casadi_real v1248=v1228+v1247;
-  const casadi_real v1250=i3[60]*i3[60];
+  const casadi_real v1250=i3[61]*i3[61];
   const casadi_real v1251=v1250*v859;
   const casadi_real v1252=v1251+v868;
   const casadi_real v1253=v874*v1183;
@@ -30063,7 +30063,7 @@ static int casadi_f32(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* without_velocity_anew:(i0[90],i1[21],i2[18],i3[64],i4)->(o0[90]) */
+/* without_velocity_anew:(i0[90],i1[21],i2[18],i3[65],i4)->(o0[90]) */
 static int casadi_f35(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *wr0;
   /* #0: @0 = input[0][0] */
@@ -30073,7 +30073,7 @@ static int casadi_f35(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* velocity_anew:(i0[90],i1[21],i2[18],i3[64],i4)->(o0[90]) */
+/* velocity_anew:(i0[90],i1[21],i2[18],i3[65],i4)->(o0[90]) */
 static int casadi_f36(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -30173,7 +30173,7 @@ static int casadi_f36(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v66=v49*v65;
   const casadi_real v67=v36?v66:0;
   o0[51]=v67;
-  const casadi_real v69=i3[34]*i3[34];
+  const casadi_real v69=i3[35]*i3[35];
   const casadi_real v70=v69+1e-12;
   const casadi_real v71=i4[0]?v70:0;
   const casadi_real v72=v44*v57;
@@ -30220,7 +30220,7 @@ static int casadi_f36(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* perhaps_velocity_anew:(i0,i1[90],i2[21],i3[18],i4[64],i5)->(o0[90]) */
+/* perhaps_velocity_anew:(i0,i1[90],i2[21],i3[18],i4[65],i5)->(o0[90]) */
 static int casadi_f34(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   if (arg[0] ? casadi_to_int(*arg[0]) : 0) {
     if (casadi_f36(arg+1, res, iw, w, 0)) return 1;
@@ -30230,7 +30230,7 @@ static int casadi_f34(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* without_by_speed:(i0[90],i1[21],i2[18],i3[64])->(o0[90]) */
+/* without_by_speed:(i0[90],i1[21],i2[18],i3[65])->(o0[90]) */
 static int casadi_f38(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *wr0;
   /* #0: @0 = input[0][0] */
@@ -30240,7 +30240,7 @@ static int casadi_f38(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* by_speed:(i0[90],i1[21],i2[18],i3[64])->(o0[90]) */
+/* by_speed:(i0[90],i1[21],i2[18],i3[65])->(o0[90]) */
 static int casadi_f39(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -30277,7 +30277,7 @@ static int casadi_f39(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v45=i0[80]*i0[80];
   const casadi_real v46=v44+v45;
   const casadi_real v47=i0[52]+v46;
-  const casadi_real v49=i3[34]*i3[34];
+  const casadi_real v49=i3[35]*i3[35];
   const casadi_real v50=v49+1e-12;
   const casadi_real v51=v47+v50;
   const casadi_real v52=v38*v38;
@@ -31984,7 +31984,7 @@ static int casadi_f39(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* perhaps_by_speed:(i0,i1[90],i2[21],i3[18],i4[64])->(o0[90]) */
+/* perhaps_by_speed:(i0,i1[90],i2[21],i3[18],i4[65])->(o0[90]) */
 static int casadi_f37(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   if (arg[0] ? casadi_to_int(*arg[0]) : 0) {
     if (casadi_f39(arg+1, res, iw, w, 0)) return 1;
@@ -31994,7 +31994,7 @@ static int casadi_f37(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* without_by_heading:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6)->(o0[90]) */
+/* without_by_heading:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6)->(o0[90]) */
 static int casadi_f41(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *wr0;
   /* #0: @0 = input[0][0] */
@@ -32004,7 +32004,7 @@ static int casadi_f41(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* heading:(i0[18],i1[64],i2)->(o0[8],o1,o2) */
+/* heading:(i0[18],i1[65],i2)->(o0[8],o1,o2) */
 static int casadi_f43(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -32031,19 +32031,19 @@ static int casadi_f43(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v20=v18+1e-12;
   o0[1]=v20;
   o0[3]=i2[0];
-  const casadi_real v24=i1[58]*i1[58];
-  const casadi_real v26=i1[59]*i1[59];
+  const casadi_real v24=i1[59]*i1[59];
+  const casadi_real v26=i1[60]*i1[60];
   const casadi_real v27=v24+v26;
-  const casadi_real v29=i1[60]*i1[60];
+  const casadi_real v29=i1[61]*i1[61];
   const casadi_real v30=v27+v29;
   const casadi_real v31=0.6666666666666666*v30;
   const casadi_real v32=v31/i2[0];
   o0[4]=v32;
-  const casadi_real v34=i1[61]*i1[61];
+  const casadi_real v34=i1[62]*i1[62];
   o0[5]=v34;
-  const casadi_real v36=i1[62]*i1[62];
+  const casadi_real v36=i1[63]*i1[63];
   o0[6]=v36;
-  const casadi_real v38=i1[63]*i1[63];
+  const casadi_real v38=i1[64]*i1[64];
   o0[7]=v38;
   const casadi_real v39=v16?i0[10]:0;
   const casadi_real v40=v39/i2[0];
@@ -32051,7 +32051,7 @@ static int casadi_f43(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v43=floor(v42);
   o1[0]=v43;
   const casadi_real v47=63.0*i2[0];
-  const casadi_real v48=i1[44]/v47;
+  const casadi_real v48=i1[45]/v47;
   const casadi_real v50=v48-1e-06;
   const casadi_real v51=ceil(v50);
   const casadi_real v52=casadi_fmax(1.0,v51);
@@ -33784,7 +33784,7 @@ static int casadi_f44(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* by_heading:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6)->(o0[90]) */
+/* by_heading:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6)->(o0[90]) */
 static int casadi_f42(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_int i;
   casadi_real **res1=res+1, *rr, w02, w03, w04, w07, *w08=w+117, w09, w10, w11, w12, w13;
@@ -33957,7 +33957,7 @@ static int casadi_f42(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* perhaps_by_heading:(i0,i1[90],i2[359],i3[18],i4[64],i5,i6[3],i7)->(o0[90]) */
+/* perhaps_by_heading:(i0,i1[90],i2[359],i3[18],i4[65],i5,i6[3],i7)->(o0[90]) */
 static int casadi_f40(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   if (arg[0] ? casadi_to_int(*arg[0]) : 0) {
     if (casadi_f42(arg+1, res, iw, w, 0)) return 1;
@@ -33967,7 +33967,7 @@ static int casadi_f40(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* without_by_zero_rate:(i0[90],i1[3],i2[64],i3,i4[3])->(o0[90]) */
+/* without_by_zero_rate:(i0[90],i1[3],i2[65],i3,i4[3])->(o0[90]) */
 static int casadi_f46(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *wr0;
   /* #0: @0 = input[0][0] */
@@ -33977,7 +33977,7 @@ static int casadi_f46(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* perhaps_by_zero_rate:(i0,i1[90],i2[3],i3[64],i4,i5[3])->(o0[90]) */
+/* perhaps_by_zero_rate:(i0,i1[90],i2[3],i3[65],i4,i5[3])->(o0[90]) */
 static int casadi_f45(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   if (arg[0] ? casadi_to_int(*arg[0]) : 0) {
     if (casadi_f14(arg+1, res, iw, w, 0)) return 1;
@@ -33987,7 +33987,7 @@ static int casadi_f45(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* without_field:(i0[132],i1[90],i2[18],i3[64],i4,i5[3],i6[19])->(o0[132]) */
+/* without_field:(i0[132],i1[90],i2[18],i3[65],i4,i5[3],i6[19])->(o0[132]) */
 static int casadi_f48(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *wr0;
   /* #0: @0 = input[0][0] */
@@ -33997,7 +33997,7 @@ static int casadi_f48(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* perhaps_field:(i0,i1[132],i2[90],i3[18],i4[64],i5,i6[3],i7[19])->(o0[132]) */
+/* perhaps_field:(i0,i1[132],i2[90],i3[18],i4[65],i5,i6[3],i7[19])->(o0[132]) */
 static int casadi_f47(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   if (arg[0] ? casadi_to_int(*arg[0]) : 0) {
     if (casadi_f17(arg+1, res, iw, w, 0)) return 1;
@@ -34007,12 +34007,12 @@ static int casadi_f47(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* every_update:(i0[90],i1[359],i2[18],i3[64],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
+/* every_update:(i0[90],i1[359],i2[18],i3[65],i4,i5[3],i6[21],i7[19])->(o0[83],o1,o2[21],o3[42]) */
 static int casadi_f22(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_int i;
   casadi_real **res1=res+4, *rr, w01, w02, w03, w04, w05, w06, w07, w08, w09, w10;
-  casadi_real w11, w12, w13, *w14=w+766, *w15=w+856, *w16=w+946, *w17=res[2] ? res[2] : w+1036, *w21=w+1057, *w22=w+1060, *w23=res[3] ? res[3] : w+1063, *w24=w+1105, *w25=w+1237;
-  casadi_real *w26=res[0] ? res[0] : w+1369;
+  casadi_real w11, w12, w13, *w14=w+767, *w15=w+857, *w16=w+947, *w17=res[2] ? res[2] : w+1037, *w21=w+1058, *w22=w+1061, *w23=res[3] ? res[3] : w+1064, *w24=w+1106, *w25=w+1238;
+  casadi_real *w26=res[0] ? res[0] : w+1370;
   const casadi_real **arg1=arg+8, *cs, *wr00, *wr14, *wr17, *wr18, *wr19, *wr20, *wr23;
   /* #0: @0 = input[7][0] */
   wr00 = arg[7] ? arg[7] : casadi_zeros;
@@ -34162,7 +34162,7 @@ static int casadi_f22(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* updates:(i0,i1[90],i2[359],i3[18],i4[64],i5,i6[3],i7[21],i8[19])->(o0[83],o1,o2[21],o3[42]) */
+/* updates:(i0,i1[90],i2[359],i3[18],i4[65],i5,i6[3],i7[21],i8[19])->(o0[83],o1,o2[21],o3[42]) */
 static int casadi_f9(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   switch (arg[0] ? casadi_to_int(*arg[0]) : 0) {
     case 0:
@@ -34196,7 +34196,7 @@ static int casadi_f9(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   return 0;
 }
 
-/* without_look:(i0[29],i1[90],i2[64],i3)->(o0[29]) */
+/* without_look:(i0[29],i1[90],i2[65],i3)->(o0[29]) */
 static int casadi_f50(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *wr0;
   /* #0: @0 = input[0][0] */
@@ -34206,7 +34206,7 @@ static int casadi_f50(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* look:(i0[29],i1[90],i2[64],i3)->(o0[29]) */
+/* look:(i0[29],i1[90],i2[65],i3)->(o0[29]) */
 static int casadi_f51(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i0=arg[0];
   const casadi_real *restrict i1=arg[1];
@@ -34680,7 +34680,7 @@ static int casadi_f51(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* perhaps_look:(i0,i1[29],i2[90],i3[64],i4)->(o0[29]) */
+/* perhaps_look:(i0,i1[29],i2[90],i3[65],i4)->(o0[29]) */
 static int casadi_f49(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   if (arg[0] ? casadi_to_int(*arg[0]) : 0) {
     if (casadi_f51(arg+1, res, iw, w, 0)) return 1;
@@ -34690,11 +34690,11 @@ static int casadi_f49(const casadi_real** arg, casadi_real** res, casadi_int* iw
   return 0;
 }
 
-/* step:(s[359],u[18],p[64],w[0],h)->(s_next[359],y[21]) */
+/* step:(s[359],u[18],p[65],w[0],h)->(s_next[359],y[21]) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   casadi_int i;
-  casadi_real **res1=res+2, *rr, *w01=res[0] ? res[0] : w+1925, w05, *w06=w+2008, w07, *w08=w+2121, *w09=res[0] ? res[0]+83 : w+2211, *w10=w+2288, w11, *w12=w+2317, *w13=w+2320;
-  casadi_real *w14=w+2341, w15, *w16=res[1] ? res[1] : w+2360, *w17=res[0] ? res[0]+317 : w+2381, *w18=res[0] ? res[0]+160 : w+2423, *w19=res[0] ? res[0]+189 : w+2452, *w20=w+2580, *w21=w+2582;
+  casadi_real **res1=res+2, *rr, *w01=res[0] ? res[0] : w+1927, w05, *w06=w+2010, w07, *w08=w+2123, *w09=res[0] ? res[0]+83 : w+2213, *w10=w+2290, w11, *w12=w+2319, *w13=w+2322;
+  casadi_real *w14=w+2343, w15, *w16=res[1] ? res[1] : w+2362, *w17=res[0] ? res[0]+317 : w+2383, *w18=res[0] ? res[0]+160 : w+2425, *w19=res[0] ? res[0]+189 : w+2454, *w20=w+2582, *w21=w+2584;
   const casadi_real **arg1=arg+5, *cr, *cs, *wr00, *wr01, *wr02, *wr03, *wr04, *wr19;
   /* #0: @0 = input[0][0] */
   wr00 = arg[0] ? arg[0] : casadi_zeros;
@@ -34789,7 +34789,7 @@ static int pyimu_imt30_ukf_step(const casadi_real** arg, casadi_real** res, casa
   return casadi_f0(arg, res, iw, w, mem);
 }
 
-/* initial:(u[18],p[64])->(s[359],y[21]) */
+/* initial:(u[18],p[65])->(s[359],y[21]) */
 static int casadi_f52(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   const casadi_real *restrict i1=arg[1];
   casadi_real *restrict o0=res[0];
@@ -34942,7 +34942,6 @@ static int casadi_f52(const casadi_real** arg, casadi_real** res, casadi_int* iw
   o0[105]=0.0;
   o0[106]=0.0;
   o0[107]=0.0;
-  o0[108]=0.0;
   o0[109]=0.0;
   o0[110]=0.0;
   o0[111]=0.0;
@@ -35195,6 +35194,8 @@ static int casadi_f52(const casadi_real** arg, casadi_real** res, casadi_int* iw
   const casadi_real v143=casadi_fmax(v141,0.0001);
   const casadi_real v144=v143*v143;
   o0[84]=v144;
+  const casadi_real v146=i1[29]*i1[29];
+  o0[108]=v146;
   o0[129]=25.0;
   o0[144]=1000000000.0;
   o0[158]=1000000000.0;
@@ -35262,477 +35263,477 @@ static int casadi_f52(const casadi_real** arg, casadi_real** res, casadi_int* iw
   o0[250]=1000000000.0;
   o0[251]=1000000000.0;
   o0[252]=1000000000.0;
-  const casadi_real v147=v34*v38;
-  const casadi_real v148=v32*v36;
-  const casadi_real v149=v147-v148;
-  const casadi_real v150=2.*v149;
-  o0[148]=v150;
-  const casadi_real v151=v36*v38;
-  const casadi_real v152=v32*v34;
-  const casadi_real v153=v151+v152;
-  const casadi_real v154=2.*v153;
-  o0[149]=v154;
-  const casadi_real v155=v34*v34;
-  const casadi_real v156=v36*v36;
-  const casadi_real v157=v155+v156;
-  const casadi_real v158=2.*v157;
-  const casadi_real v159=1.0-v158;
-  o0[150]=v159;
+  const casadi_real v149=v34*v38;
+  const casadi_real v150=v32*v36;
+  const casadi_real v151=v149-v150;
+  const casadi_real v152=2.*v151;
+  o0[148]=v152;
+  const casadi_real v153=v36*v38;
+  const casadi_real v154=v32*v34;
+  const casadi_real v155=v153+v154;
+  const casadi_real v156=2.*v155;
+  o0[149]=v156;
+  const casadi_real v157=v34*v34;
+  const casadi_real v158=v36*v36;
+  const casadi_real v159=v157+v158;
+  const casadi_real v160=2.*v159;
+  const casadi_real v161=1.0-v160;
+  o0[150]=v161;
   o0[157]=63.0;
-  const casadi_real v161=i1[15]*i1[22];
-  const casadi_real v162=i1[2]*i1[4];
-  const casadi_real v163=i1[1]*i1[3];
-  const casadi_real v164=v162-v163;
-  const casadi_real v165=2.*v164;
-  const casadi_real v166=v165*v165;
-  const casadi_real v167=v165*v165;
-  const casadi_real v168=i1[3]*i1[4];
-  const casadi_real v169=i1[1]*i1[2];
-  const casadi_real v170=v168+v169;
-  const casadi_real v171=2.*v170;
-  const casadi_real v172=v171*v171;
-  const casadi_real v173=v167+v172;
-  const casadi_real v174=i1[1]*i1[1];
-  const casadi_real v175=i1[2]*i1[2];
-  const casadi_real v176=v174-v175;
-  const casadi_real v177=i1[3]*i1[3];
+  const casadi_real v163=i1[15]*i1[22];
+  const casadi_real v164=i1[2]*i1[4];
+  const casadi_real v165=i1[1]*i1[3];
+  const casadi_real v166=v164-v165;
+  const casadi_real v167=2.*v166;
+  const casadi_real v168=v167*v167;
+  const casadi_real v169=v167*v167;
+  const casadi_real v170=i1[3]*i1[4];
+  const casadi_real v171=i1[1]*i1[2];
+  const casadi_real v172=v170+v171;
+  const casadi_real v173=2.*v172;
+  const casadi_real v174=v173*v173;
+  const casadi_real v175=v169+v174;
+  const casadi_real v176=i1[1]*i1[1];
+  const casadi_real v177=i1[2]*i1[2];
   const casadi_real v178=v176-v177;
-  const casadi_real v179=i1[4]*i1[4];
-  const casadi_real v180=v178+v179;
-  const casadi_real v181=v180*v180;
-  const casadi_real v182=v173+v181;
-  const casadi_real v183=v182+1e-12;
-  const casadi_real v184=1./v183;
-  const casadi_real v185=fabs(v184);
-  const casadi_real v186=v166*v185;
-  const casadi_real v187=1.0-v186;
-  const casadi_real v188=i1[8]*i1[8];
-  const casadi_real v189=v187*v188;
-  const casadi_real v190=v171*v171;
-  const casadi_real v191=v190*v185;
-  const casadi_real v192=1.0-v191;
-  const casadi_real v193=i1[9]*i1[9];
-  const casadi_real v194=v192*v193;
-  const casadi_real v195=v189+v194;
-  const casadi_real v196=v180*v180;
-  const casadi_real v197=v196*v185;
-  const casadi_real v198=1.0-v197;
-  const casadi_real v199=i1[10]*i1[10];
-  const casadi_real v200=v198*v199;
-  const casadi_real v201=v195+v200;
-  const casadi_real v202=v201/2.0;
-  const casadi_real v203=sqrt(v202);
-  const casadi_real v204=i1[14]*v203;
-  const casadi_real v205=0.0<i1[23];
-  const casadi_real v206=casadi_fmax(v204,v205);
-  const casadi_real v207=casadi_fmin(v206,1.0);
-  const casadi_real v208=0.3*v207;
-  const casadi_real v209=casadi_fmax(0.08,v208);
-  const casadi_real v210=6.0*i1[23];
-  const casadi_real v211=casadi_fmax(v209,v210);
-  const casadi_real v212=casadi_fmax(v161,v211);
-  const casadi_real v213=0.0<i1[15];
-  const casadi_real v214=v212*v213;
-  const casadi_real v215=v214*v214;
-  o0[160]=v215;
-  o0[161]=v215;
-  const casadi_real v217=0.0002*i1[22];
-  const casadi_real v218=fabs(v217);
-  const casadi_real v220=v218<1e-60;
-  const casadi_real v221=!v220;
-  const casadi_real v222=v221?v217:0;
-  o0[171]=v222;
-  const casadi_real v223=fabs(v217);
-  const casadi_real v224=v223<1e-60;
-  const casadi_real v225=!v224;
-  const casadi_real v226=v225?v217:0;
-  o0[172]=v226;
-  const casadi_real v227=fabs(v217);
-  const casadi_real v228=v227<1e-60;
-  const casadi_real v229=!v228;
-  const casadi_real v230=v229?v217:0;
-  o0[173]=v230;
-  const casadi_real v231=2.*i1[22];
-  const casadi_real v232=v231*v215;
-  const casadi_real v233=fabs(v232);
-  const casadi_real v234=v233<1e-60;
-  const casadi_real v235=!v234;
-  const casadi_real v236=v235?v232:0;
-  o0[174]=v236;
-  const casadi_real v237=i1[23]*i1[23];
-  const casadi_real v238=0.0<i1[15];
-  const casadi_real v239=v237*v238;
-  const casadi_real v240=fabs(v239);
-  const casadi_real v241=v240<1e-60;
-  const casadi_real v242=!v241;
-  const casadi_real v243=v242?v239:0;
-  o0[179]=v243;
-  const casadi_real v245=0.0<i1[46];
-  const casadi_real v248=0.6366197723675814*i1[47];
-  const casadi_real v250=v248+0.5;
-  const casadi_real v251=floor(v250);
-  const casadi_real v252=v251+1.0;
-  const casadi_real v254=v252/4.0;
-  const casadi_real v255=floor(v254);
-  const casadi_real v256=4.0*v255;
-  const casadi_real v257=v252-v256;
-  const casadi_real v258=2.0<=v257;
-  const casadi_real v259=2.*v258;
-  const casadi_real v260=1.0-v259;
-  const casadi_real v261=v257/2.0;
-  const casadi_real v262=floor(v261);
-  const casadi_real v263=2.*v262;
-  const casadi_real v264=v257-v263;
-  const casadi_real v266=1.570796251296997*v251;
-  const casadi_real v267=i1[47]-v266;
-  const casadi_real v269=7.549789415861596e-08*v251;
-  const casadi_real v270=v267-v269;
-  const casadi_real v272=5.390302858158119e-15*v251;
-  const casadi_real v273=v270-v272;
-  const casadi_real v274=v273*v273;
-  const casadi_real v275=v274/2.0;
-  const casadi_real v276=1.0-v275;
-  const casadi_real v277=v274*v274;
-  const casadi_real v279=(-1.1358536521387682e-11)*v274;
-  const casadi_real v281=v279+2.087570084197473e-09;
-  const casadi_real v282=v281*v274;
-  const casadi_real v284=v282+(-2.755731417929674e-07);
-  const casadi_real v285=v284*v274;
-  const casadi_real v287=v285+2.4801587288851704e-05;
-  const casadi_real v288=v287*v274;
-  const casadi_real v290=v288+(-0.0013888888888873056);
-  const casadi_real v291=v290*v274;
-  const casadi_real v293=v291+0.041666666666666595;
-  const casadi_real v294=v277*v293;
-  const casadi_real v295=v276+v294;
-  const casadi_real v296=v264?v295:0;
-  const casadi_real v297=!v264;
-  const casadi_real v299=1.5896230157654656e-10*v274;
-  const casadi_real v301=v299+(-2.5050747762857807e-08);
-  const casadi_real v302=v301*v274;
-  const casadi_real v304=v302+2.7557313621385722e-06;
-  const casadi_real v305=v304*v274;
-  const casadi_real v307=v305+(-0.0001984126982958954);
-  const casadi_real v308=v307*v274;
-  const casadi_real v310=v308+0.008333333333322118;
-  const casadi_real v311=v310*v274;
-  const casadi_real v313=v311+(-0.1666666666666663);
-  const casadi_real v314=v274*v313;
-  const casadi_real v315=v273*v314;
-  const casadi_real v316=v273+v315;
-  const casadi_real v317=v297?v316:0;
-  const casadi_real v318=v296+v317;
-  const casadi_real v319=v260*v318;
-  const casadi_real v320=i1[46]*v319;
-  const casadi_real v321=v245*v320;
-  o0[317]=v321;
-  const casadi_real v322=0.6366197723675814*i1[47];
-  const casadi_real v323=v322+0.5;
-  const casadi_real v324=floor(v323);
-  const casadi_real v325=v324/4.0;
+  const casadi_real v179=i1[3]*i1[3];
+  const casadi_real v180=v178-v179;
+  const casadi_real v181=i1[4]*i1[4];
+  const casadi_real v182=v180+v181;
+  const casadi_real v183=v182*v182;
+  const casadi_real v184=v175+v183;
+  const casadi_real v185=v184+1e-12;
+  const casadi_real v186=1./v185;
+  const casadi_real v187=fabs(v186);
+  const casadi_real v188=v168*v187;
+  const casadi_real v189=1.0-v188;
+  const casadi_real v190=i1[8]*i1[8];
+  const casadi_real v191=v189*v190;
+  const casadi_real v192=v173*v173;
+  const casadi_real v193=v192*v187;
+  const casadi_real v194=1.0-v193;
+  const casadi_real v195=i1[9]*i1[9];
+  const casadi_real v196=v194*v195;
+  const casadi_real v197=v191+v196;
+  const casadi_real v198=v182*v182;
+  const casadi_real v199=v198*v187;
+  const casadi_real v200=1.0-v199;
+  const casadi_real v201=i1[10]*i1[10];
+  const casadi_real v202=v200*v201;
+  const casadi_real v203=v197+v202;
+  const casadi_real v204=v203/2.0;
+  const casadi_real v205=sqrt(v204);
+  const casadi_real v206=i1[14]*v205;
+  const casadi_real v207=0.0<i1[23];
+  const casadi_real v208=casadi_fmax(v206,v207);
+  const casadi_real v209=casadi_fmin(v208,1.0);
+  const casadi_real v210=0.3*v209;
+  const casadi_real v211=casadi_fmax(0.08,v210);
+  const casadi_real v212=6.0*i1[23];
+  const casadi_real v213=casadi_fmax(v211,v212);
+  const casadi_real v214=casadi_fmax(v163,v213);
+  const casadi_real v215=0.0<i1[15];
+  const casadi_real v216=v214*v215;
+  const casadi_real v217=v216*v216;
+  o0[160]=v217;
+  o0[161]=v217;
+  const casadi_real v219=0.0002*i1[22];
+  const casadi_real v220=fabs(v219);
+  const casadi_real v222=v220<1e-60;
+  const casadi_real v223=!v222;
+  const casadi_real v224=v223?v219:0;
+  o0[171]=v224;
+  const casadi_real v225=fabs(v219);
+  const casadi_real v226=v225<1e-60;
+  const casadi_real v227=!v226;
+  const casadi_real v228=v227?v219:0;
+  o0[172]=v228;
+  const casadi_real v229=fabs(v219);
+  const casadi_real v230=v229<1e-60;
+  const casadi_real v231=!v230;
+  const casadi_real v232=v231?v219:0;
+  o0[173]=v232;
+  const casadi_real v233=2.*i1[22];
+  const casadi_real v234=v233*v217;
+  const casadi_real v235=fabs(v234);
+  const casadi_real v236=v235<1e-60;
+  const casadi_real v237=!v236;
+  const casadi_real v238=v237?v234:0;
+  o0[174]=v238;
+  const casadi_real v239=i1[23]*i1[23];
+  const casadi_real v240=0.0<i1[15];
+  const casadi_real v241=v239*v240;
+  const casadi_real v242=fabs(v241);
+  const casadi_real v243=v242<1e-60;
+  const casadi_real v244=!v243;
+  const casadi_real v245=v244?v241:0;
+  o0[179]=v245;
+  const casadi_real v247=0.0<i1[47];
+  const casadi_real v250=0.6366197723675814*i1[48];
+  const casadi_real v252=v250+0.5;
+  const casadi_real v253=floor(v252);
+  const casadi_real v254=v253+1.0;
+  const casadi_real v256=v254/4.0;
+  const casadi_real v257=floor(v256);
+  const casadi_real v258=4.0*v257;
+  const casadi_real v259=v254-v258;
+  const casadi_real v260=2.0<=v259;
+  const casadi_real v261=2.*v260;
+  const casadi_real v262=1.0-v261;
+  const casadi_real v263=v259/2.0;
+  const casadi_real v264=floor(v263);
+  const casadi_real v265=2.*v264;
+  const casadi_real v266=v259-v265;
+  const casadi_real v268=1.570796251296997*v253;
+  const casadi_real v269=i1[48]-v268;
+  const casadi_real v271=7.549789415861596e-08*v253;
+  const casadi_real v272=v269-v271;
+  const casadi_real v274=5.390302858158119e-15*v253;
+  const casadi_real v275=v272-v274;
+  const casadi_real v276=v275*v275;
+  const casadi_real v277=v276/2.0;
+  const casadi_real v278=1.0-v277;
+  const casadi_real v279=v276*v276;
+  const casadi_real v281=(-1.1358536521387682e-11)*v276;
+  const casadi_real v283=v281+2.087570084197473e-09;
+  const casadi_real v284=v283*v276;
+  const casadi_real v286=v284+(-2.755731417929674e-07);
+  const casadi_real v287=v286*v276;
+  const casadi_real v289=v287+2.4801587288851704e-05;
+  const casadi_real v290=v289*v276;
+  const casadi_real v292=v290+(-0.0013888888888873056);
+  const casadi_real v293=v292*v276;
+  const casadi_real v295=v293+0.041666666666666595;
+  const casadi_real v296=v279*v295;
+  const casadi_real v297=v278+v296;
+  const casadi_real v298=v266?v297:0;
+  const casadi_real v299=!v266;
+  const casadi_real v301=1.5896230157654656e-10*v276;
+  const casadi_real v303=v301+(-2.5050747762857807e-08);
+  const casadi_real v304=v303*v276;
+  const casadi_real v306=v304+2.7557313621385722e-06;
+  const casadi_real v307=v306*v276;
+  const casadi_real v309=v307+(-0.0001984126982958954);
+  const casadi_real v310=v309*v276;
+  const casadi_real v312=v310+0.008333333333322118;
+  const casadi_real v313=v312*v276;
+  const casadi_real v315=v313+(-0.1666666666666663);
+  const casadi_real v316=v276*v315;
+  const casadi_real v317=v275*v316;
+  const casadi_real v318=v275+v317;
+  const casadi_real v319=v299?v318:0;
+  const casadi_real v320=v298+v319;
+  const casadi_real v321=v262*v320;
+  const casadi_real v322=i1[47]*v321;
+  const casadi_real v323=v247*v322;
+  o0[317]=v323;
+  const casadi_real v324=0.6366197723675814*i1[48];
+  const casadi_real v325=v324+0.5;
   const casadi_real v326=floor(v325);
-  const casadi_real v327=4.0*v326;
-  const casadi_real v328=v324-v327;
-  const casadi_real v329=2.0<=v328;
-  const casadi_real v330=2.*v329;
-  const casadi_real v331=1.0-v330;
-  const casadi_real v332=v328/2.0;
-  const casadi_real v333=floor(v332);
-  const casadi_real v334=2.*v333;
-  const casadi_real v335=v328-v334;
-  const casadi_real v336=1.570796251296997*v324;
-  const casadi_real v337=i1[47]-v336;
-  const casadi_real v338=7.549789415861596e-08*v324;
-  const casadi_real v339=v337-v338;
-  const casadi_real v340=5.390302858158119e-15*v324;
+  const casadi_real v327=v326/4.0;
+  const casadi_real v328=floor(v327);
+  const casadi_real v329=4.0*v328;
+  const casadi_real v330=v326-v329;
+  const casadi_real v331=2.0<=v330;
+  const casadi_real v332=2.*v331;
+  const casadi_real v333=1.0-v332;
+  const casadi_real v334=v330/2.0;
+  const casadi_real v335=floor(v334);
+  const casadi_real v336=2.*v335;
+  const casadi_real v337=v330-v336;
+  const casadi_real v338=1.570796251296997*v326;
+  const casadi_real v339=i1[48]-v338;
+  const casadi_real v340=7.549789415861596e-08*v326;
   const casadi_real v341=v339-v340;
-  const casadi_real v342=v341*v341;
-  const casadi_real v343=v342/2.0;
-  const casadi_real v344=1.0-v343;
-  const casadi_real v345=v342*v342;
-  const casadi_real v346=(-1.1358536521387682e-11)*v342;
-  const casadi_real v347=v346+2.087570084197473e-09;
-  const casadi_real v348=v347*v342;
-  const casadi_real v349=v348+(-2.755731417929674e-07);
-  const casadi_real v350=v349*v342;
-  const casadi_real v351=v350+2.4801587288851704e-05;
-  const casadi_real v352=v351*v342;
-  const casadi_real v353=v352+(-0.0013888888888873056);
-  const casadi_real v354=v353*v342;
-  const casadi_real v355=v354+0.041666666666666595;
-  const casadi_real v356=v345*v355;
-  const casadi_real v357=v344+v356;
-  const casadi_real v358=v335?v357:0;
-  const casadi_real v359=!v335;
-  const casadi_real v360=1.5896230157654656e-10*v342;
-  const casadi_real v361=v360+(-2.5050747762857807e-08);
-  const casadi_real v362=v361*v342;
-  const casadi_real v363=v362+2.7557313621385722e-06;
-  const casadi_real v364=v363*v342;
-  const casadi_real v365=v364+(-0.0001984126982958954);
-  const casadi_real v366=v365*v342;
-  const casadi_real v367=v366+0.008333333333322118;
-  const casadi_real v368=v367*v342;
-  const casadi_real v369=v368+(-0.1666666666666663);
-  const casadi_real v370=v342*v369;
-  const casadi_real v371=v341*v370;
-  const casadi_real v372=v341+v371;
-  const casadi_real v373=v359?v372:0;
-  const casadi_real v374=v358+v373;
-  const casadi_real v375=v331*v374;
-  const casadi_real v376=i1[46]*v375;
-  const casadi_real v377=v245*v376;
-  const casadi_real v378=-v377;
-  o0[318]=v378;
-  const casadi_real v380=i1[51]*i1[51];
-  const casadi_real v382=casadi_fmax(v380,1e-30);
-  const casadi_real v384=i1[48]*i1[48];
-  const casadi_real v385=casadi_fmax(v384,1e-30);
-  const casadi_real v386=v382/v385;
-  const casadi_real v388=casadi_fmin(v386,60.0);
-  const casadi_real v389=v245*v388;
-  const casadi_real v390=-v389;
-  o0[319]=v390;
-  const casadi_real v391=i1[51]*i1[51];
-  o0[322]=v391;
+  const casadi_real v342=5.390302858158119e-15*v326;
+  const casadi_real v343=v341-v342;
+  const casadi_real v344=v343*v343;
+  const casadi_real v345=v344/2.0;
+  const casadi_real v346=1.0-v345;
+  const casadi_real v347=v344*v344;
+  const casadi_real v348=(-1.1358536521387682e-11)*v344;
+  const casadi_real v349=v348+2.087570084197473e-09;
+  const casadi_real v350=v349*v344;
+  const casadi_real v351=v350+(-2.755731417929674e-07);
+  const casadi_real v352=v351*v344;
+  const casadi_real v353=v352+2.4801587288851704e-05;
+  const casadi_real v354=v353*v344;
+  const casadi_real v355=v354+(-0.0013888888888873056);
+  const casadi_real v356=v355*v344;
+  const casadi_real v357=v356+0.041666666666666595;
+  const casadi_real v358=v347*v357;
+  const casadi_real v359=v346+v358;
+  const casadi_real v360=v337?v359:0;
+  const casadi_real v361=!v337;
+  const casadi_real v362=1.5896230157654656e-10*v344;
+  const casadi_real v363=v362+(-2.5050747762857807e-08);
+  const casadi_real v364=v363*v344;
+  const casadi_real v365=v364+2.7557313621385722e-06;
+  const casadi_real v366=v365*v344;
+  const casadi_real v367=v366+(-0.0001984126982958954);
+  const casadi_real v368=v367*v344;
+  const casadi_real v369=v368+0.008333333333322118;
+  const casadi_real v370=v369*v344;
+  const casadi_real v371=v370+(-0.1666666666666663);
+  const casadi_real v372=v344*v371;
+  const casadi_real v373=v343*v372;
+  const casadi_real v374=v343+v373;
+  const casadi_real v375=v361?v374:0;
+  const casadi_real v376=v360+v375;
+  const casadi_real v377=v333*v376;
+  const casadi_real v378=i1[47]*v377;
+  const casadi_real v379=v247*v378;
+  const casadi_real v380=-v379;
+  o0[318]=v380;
+  const casadi_real v382=i1[52]*i1[52];
+  const casadi_real v384=casadi_fmax(v382,1e-30);
+  const casadi_real v386=i1[49]*i1[49];
+  const casadi_real v387=casadi_fmax(v386,1e-30);
+  const casadi_real v388=v384/v387;
+  const casadi_real v390=casadi_fmin(v388,60.0);
+  const casadi_real v391=v247*v390;
+  const casadi_real v392=-v391;
+  o0[319]=v392;
+  const casadi_real v393=i1[52]*i1[52];
+  o0[322]=v393;
   o0[325]=10000.0;
-  const casadi_real v394=v34*v34;
-  const casadi_real v395=v36*v36;
-  const casadi_real v396=v394+v395;
-  const casadi_real v397=2.*v396;
-  const casadi_real v398=1.0-v397;
-  const casadi_real v399=v398<0.0;
-  const casadi_real v400=3.141592653589793*v399;
-  const casadi_real v402=fabs(v398);
-  const casadi_real v403=v36*v38;
-  const casadi_real v404=v32*v34;
-  const casadi_real v405=v403+v404;
-  const casadi_real v406=2.*v405;
-  const casadi_real v407=fabs(v406);
-  const casadi_real v408=v402<v407;
-  const casadi_real v409=1.5707963267948966*v408;
-  const casadi_real v410=v408*v402;
-  const casadi_real v411=1.0-v408;
-  const casadi_real v412=v411*v407;
-  const casadi_real v413=v410+v412;
-  const casadi_real v415=v408*v407;
-  const casadi_real v416=1.0-v408;
-  const casadi_real v417=v416*v402;
-  const casadi_real v418=v415+v417;
-  const casadi_real v420=v418+1e-300;
-  const casadi_real v421=0.66*v420;
-  const casadi_real v422=v421<v413;
-  const casadi_real v423=v422*v420;
-  const casadi_real v424=v413-v423;
-  const casadi_real v425=v422*v413;
-  const casadi_real v426=v420+v425;
-  const casadi_real v427=v424/v426;
-  const casadi_real v428=v427*v427;
-  const casadi_real v430=v428*v428;
-  const casadi_real v431=v430*v430;
-  const casadi_real v432=(-0.8750608600031904)*v431;
-  const casadi_real v434=(-16.157537187333652)*v428;
-  const casadi_real v436=v434+(-75.00855792314705);
-  const casadi_real v437=v436*v430;
-  const casadi_real v439=(-122.88666844901361)*v428;
-  const casadi_real v441=v439+(-64.85021904942025);
-  const casadi_real v442=v437+v441;
-  const casadi_real v443=v432+v442;
-  const casadi_real v444=v428*v443;
-  const casadi_real v446=v428+24.858464901423062;
-  const casadi_real v447=v428*v428;
-  const casadi_real v448=v447*v447;
-  const casadi_real v449=v446*v448;
-  const casadi_real v451=165.02700983169885*v428;
-  const casadi_real v453=v451+432.88106049129027;
-  const casadi_real v454=v453*v447;
-  const casadi_real v456=485.3903996359137*v428;
-  const casadi_real v458=v456+194.5506571482614;
-  const casadi_real v459=v454+v458;
-  const casadi_real v460=v449+v459;
-  const casadi_real v461=v444/v460;
-  const casadi_real v462=v427*v461;
-  const casadi_real v463=v427+v462;
-  const casadi_real v465=0.7853981633974483*v422;
-  const casadi_real v466=v463+v465;
-  const casadi_real v467=v409-v466;
-  const casadi_real v468=fabs(v467);
-  const casadi_real v469=v400-v468;
+  const casadi_real v396=v34*v34;
+  const casadi_real v397=v36*v36;
+  const casadi_real v398=v396+v397;
+  const casadi_real v399=2.*v398;
+  const casadi_real v400=1.0-v399;
+  const casadi_real v401=v400<0.0;
+  const casadi_real v402=3.141592653589793*v401;
+  const casadi_real v404=fabs(v400);
+  const casadi_real v405=v36*v38;
+  const casadi_real v406=v32*v34;
+  const casadi_real v407=v405+v406;
+  const casadi_real v408=2.*v407;
+  const casadi_real v409=fabs(v408);
+  const casadi_real v410=v404<v409;
+  const casadi_real v411=1.5707963267948966*v410;
+  const casadi_real v412=v410*v404;
+  const casadi_real v413=1.0-v410;
+  const casadi_real v414=v413*v409;
+  const casadi_real v415=v412+v414;
+  const casadi_real v417=v410*v409;
+  const casadi_real v418=1.0-v410;
+  const casadi_real v419=v418*v404;
+  const casadi_real v420=v417+v419;
+  const casadi_real v422=v420+1e-300;
+  const casadi_real v423=0.66*v422;
+  const casadi_real v424=v423<v415;
+  const casadi_real v425=v424*v422;
+  const casadi_real v426=v415-v425;
+  const casadi_real v427=v424*v415;
+  const casadi_real v428=v422+v427;
+  const casadi_real v429=v426/v428;
+  const casadi_real v430=v429*v429;
+  const casadi_real v432=v430*v430;
+  const casadi_real v433=v432*v432;
+  const casadi_real v434=(-0.8750608600031904)*v433;
+  const casadi_real v436=(-16.157537187333652)*v430;
+  const casadi_real v438=v436+(-75.00855792314705);
+  const casadi_real v439=v438*v432;
+  const casadi_real v441=(-122.88666844901361)*v430;
+  const casadi_real v443=v441+(-64.85021904942025);
+  const casadi_real v444=v439+v443;
+  const casadi_real v445=v434+v444;
+  const casadi_real v446=v430*v445;
+  const casadi_real v448=v430+24.858464901423062;
+  const casadi_real v449=v430*v430;
+  const casadi_real v450=v449*v449;
+  const casadi_real v451=v448*v450;
+  const casadi_real v453=165.02700983169885*v430;
+  const casadi_real v455=v453+432.88106049129027;
+  const casadi_real v456=v455*v449;
+  const casadi_real v458=485.3903996359137*v430;
+  const casadi_real v460=v458+194.5506571482614;
+  const casadi_real v461=v456+v460;
+  const casadi_real v462=v451+v461;
+  const casadi_real v463=v446/v462;
+  const casadi_real v464=v429*v463;
+  const casadi_real v465=v429+v464;
+  const casadi_real v467=0.7853981633974483*v424;
+  const casadi_real v468=v465+v467;
+  const casadi_real v469=v411-v468;
   const casadi_real v470=fabs(v469);
-  const casadi_real v471=copysign(v470,v406);
-  o1[4]=v471;
-  const casadi_real v472=v36*v36;
-  const casadi_real v473=v38*v38;
-  const casadi_real v474=v472+v473;
-  const casadi_real v475=2.*v474;
-  const casadi_real v476=1.0-v475;
-  const casadi_real v477=v476*v476;
-  const casadi_real v478=v34*v36;
-  const casadi_real v479=v32*v38;
-  const casadi_real v480=v478+v479;
-  const casadi_real v481=2.*v480;
-  const casadi_real v482=v481*v481;
-  const casadi_real v483=v477+v482;
-  const casadi_real v484=sqrt(v483);
-  const casadi_real v485=casadi_fmax(v484,0.0);
-  const casadi_real v486=v485<0.0;
-  const casadi_real v487=3.141592653589793*v486;
-  const casadi_real v488=fabs(v485);
-  const casadi_real v489=v32*v36;
-  const casadi_real v490=v34*v38;
-  const casadi_real v491=v489-v490;
-  const casadi_real v492=2.*v491;
-  const casadi_real v493=fabs(v492);
-  const casadi_real v494=v488<v493;
-  const casadi_real v495=1.5707963267948966*v494;
-  const casadi_real v496=v494*v488;
-  const casadi_real v497=1.0-v494;
-  const casadi_real v498=v497*v493;
-  const casadi_real v499=v496+v498;
-  const casadi_real v500=v494*v493;
-  const casadi_real v501=1.0-v494;
-  const casadi_real v502=v501*v488;
-  const casadi_real v503=v500+v502;
-  const casadi_real v504=v503+1e-300;
-  const casadi_real v505=0.66*v504;
-  const casadi_real v506=v505<v499;
-  const casadi_real v507=v506*v504;
-  const casadi_real v508=v499-v507;
-  const casadi_real v509=v506*v499;
-  const casadi_real v510=v504+v509;
-  const casadi_real v511=v508/v510;
-  const casadi_real v512=v511*v511;
-  const casadi_real v513=v512*v512;
+  const casadi_real v471=v402-v470;
+  const casadi_real v472=fabs(v471);
+  const casadi_real v473=copysign(v472,v408);
+  o1[4]=v473;
+  const casadi_real v474=v36*v36;
+  const casadi_real v475=v38*v38;
+  const casadi_real v476=v474+v475;
+  const casadi_real v477=2.*v476;
+  const casadi_real v478=1.0-v477;
+  const casadi_real v479=v478*v478;
+  const casadi_real v480=v34*v36;
+  const casadi_real v481=v32*v38;
+  const casadi_real v482=v480+v481;
+  const casadi_real v483=2.*v482;
+  const casadi_real v484=v483*v483;
+  const casadi_real v485=v479+v484;
+  const casadi_real v486=sqrt(v485);
+  const casadi_real v487=casadi_fmax(v486,0.0);
+  const casadi_real v488=v487<0.0;
+  const casadi_real v489=3.141592653589793*v488;
+  const casadi_real v490=fabs(v487);
+  const casadi_real v491=v32*v36;
+  const casadi_real v492=v34*v38;
+  const casadi_real v493=v491-v492;
+  const casadi_real v494=2.*v493;
+  const casadi_real v495=fabs(v494);
+  const casadi_real v496=v490<v495;
+  const casadi_real v497=1.5707963267948966*v496;
+  const casadi_real v498=v496*v490;
+  const casadi_real v499=1.0-v496;
+  const casadi_real v500=v499*v495;
+  const casadi_real v501=v498+v500;
+  const casadi_real v502=v496*v495;
+  const casadi_real v503=1.0-v496;
+  const casadi_real v504=v503*v490;
+  const casadi_real v505=v502+v504;
+  const casadi_real v506=v505+1e-300;
+  const casadi_real v507=0.66*v506;
+  const casadi_real v508=v507<v501;
+  const casadi_real v509=v508*v506;
+  const casadi_real v510=v501-v509;
+  const casadi_real v511=v508*v501;
+  const casadi_real v512=v506+v511;
+  const casadi_real v513=v510/v512;
   const casadi_real v514=v513*v513;
-  const casadi_real v515=(-0.8750608600031904)*v514;
-  const casadi_real v516=(-16.157537187333652)*v512;
-  const casadi_real v517=v516+(-75.00855792314705);
-  const casadi_real v518=v517*v513;
-  const casadi_real v519=(-122.88666844901361)*v512;
-  const casadi_real v520=v519+(-64.85021904942025);
-  const casadi_real v521=v518+v520;
-  const casadi_real v522=v515+v521;
-  const casadi_real v523=v512*v522;
-  const casadi_real v524=v512+24.858464901423062;
-  const casadi_real v525=v512*v512;
-  const casadi_real v526=v525*v525;
-  const casadi_real v527=v524*v526;
-  const casadi_real v528=165.02700983169885*v512;
-  const casadi_real v529=v528+432.88106049129027;
-  const casadi_real v530=v529*v525;
-  const casadi_real v531=485.3903996359137*v512;
-  const casadi_real v532=v531+194.5506571482614;
-  const casadi_real v533=v530+v532;
-  const casadi_real v534=v527+v533;
-  const casadi_real v535=v523/v534;
-  const casadi_real v536=v511*v535;
-  const casadi_real v537=v511+v536;
-  const casadi_real v538=0.7853981633974483*v506;
-  const casadi_real v539=v537+v538;
-  const casadi_real v540=v495-v539;
-  const casadi_real v541=fabs(v540);
-  const casadi_real v542=v487-v541;
+  const casadi_real v515=v514*v514;
+  const casadi_real v516=v515*v515;
+  const casadi_real v517=(-0.8750608600031904)*v516;
+  const casadi_real v518=(-16.157537187333652)*v514;
+  const casadi_real v519=v518+(-75.00855792314705);
+  const casadi_real v520=v519*v515;
+  const casadi_real v521=(-122.88666844901361)*v514;
+  const casadi_real v522=v521+(-64.85021904942025);
+  const casadi_real v523=v520+v522;
+  const casadi_real v524=v517+v523;
+  const casadi_real v525=v514*v524;
+  const casadi_real v526=v514+24.858464901423062;
+  const casadi_real v527=v514*v514;
+  const casadi_real v528=v527*v527;
+  const casadi_real v529=v526*v528;
+  const casadi_real v530=165.02700983169885*v514;
+  const casadi_real v531=v530+432.88106049129027;
+  const casadi_real v532=v531*v527;
+  const casadi_real v533=485.3903996359137*v514;
+  const casadi_real v534=v533+194.5506571482614;
+  const casadi_real v535=v532+v534;
+  const casadi_real v536=v529+v535;
+  const casadi_real v537=v525/v536;
+  const casadi_real v538=v513*v537;
+  const casadi_real v539=v513+v538;
+  const casadi_real v540=0.7853981633974483*v508;
+  const casadi_real v541=v539+v540;
+  const casadi_real v542=v497-v541;
   const casadi_real v543=fabs(v542);
-  const casadi_real v544=copysign(v543,v492);
-  o1[5]=v544;
-  const casadi_real v545=v476<0.0;
-  const casadi_real v546=3.141592653589793*v545;
-  const casadi_real v547=fabs(v476);
-  const casadi_real v548=fabs(v481);
-  const casadi_real v549=v547<v548;
-  const casadi_real v550=1.5707963267948966*v549;
-  const casadi_real v551=v549*v547;
-  const casadi_real v552=1.0-v549;
-  const casadi_real v553=v552*v548;
-  const casadi_real v554=v551+v553;
-  const casadi_real v555=v549*v548;
-  const casadi_real v556=1.0-v549;
-  const casadi_real v557=v556*v547;
-  const casadi_real v558=v555+v557;
-  const casadi_real v559=v558+1e-300;
-  const casadi_real v560=0.66*v559;
-  const casadi_real v561=v560<v554;
-  const casadi_real v562=v561*v559;
-  const casadi_real v563=v554-v562;
-  const casadi_real v564=v561*v554;
-  const casadi_real v565=v559+v564;
-  const casadi_real v566=v563/v565;
-  const casadi_real v567=v566*v566;
-  const casadi_real v568=v567*v567;
+  const casadi_real v544=v489-v543;
+  const casadi_real v545=fabs(v544);
+  const casadi_real v546=copysign(v545,v494);
+  o1[5]=v546;
+  const casadi_real v547=v478<0.0;
+  const casadi_real v548=3.141592653589793*v547;
+  const casadi_real v549=fabs(v478);
+  const casadi_real v550=fabs(v483);
+  const casadi_real v551=v549<v550;
+  const casadi_real v552=1.5707963267948966*v551;
+  const casadi_real v553=v551*v549;
+  const casadi_real v554=1.0-v551;
+  const casadi_real v555=v554*v550;
+  const casadi_real v556=v553+v555;
+  const casadi_real v557=v551*v550;
+  const casadi_real v558=1.0-v551;
+  const casadi_real v559=v558*v549;
+  const casadi_real v560=v557+v559;
+  const casadi_real v561=v560+1e-300;
+  const casadi_real v562=0.66*v561;
+  const casadi_real v563=v562<v556;
+  const casadi_real v564=v563*v561;
+  const casadi_real v565=v556-v564;
+  const casadi_real v566=v563*v556;
+  const casadi_real v567=v561+v566;
+  const casadi_real v568=v565/v567;
   const casadi_real v569=v568*v568;
-  const casadi_real v570=(-0.8750608600031904)*v569;
-  const casadi_real v571=(-16.157537187333652)*v567;
-  const casadi_real v572=v571+(-75.00855792314705);
-  const casadi_real v573=v572*v568;
-  const casadi_real v574=(-122.88666844901361)*v567;
-  const casadi_real v575=v574+(-64.85021904942025);
-  const casadi_real v576=v573+v575;
-  const casadi_real v577=v570+v576;
-  const casadi_real v578=v567*v577;
-  const casadi_real v579=v567+24.858464901423062;
-  const casadi_real v580=v567*v567;
-  const casadi_real v581=v580*v580;
-  const casadi_real v582=v579*v581;
-  const casadi_real v583=165.02700983169885*v567;
-  const casadi_real v584=v583+432.88106049129027;
-  const casadi_real v585=v584*v580;
-  const casadi_real v586=485.3903996359137*v567;
-  const casadi_real v587=v586+194.5506571482614;
-  const casadi_real v588=v585+v587;
-  const casadi_real v589=v582+v588;
-  const casadi_real v590=v578/v589;
-  const casadi_real v591=v566*v590;
-  const casadi_real v592=v566+v591;
-  const casadi_real v593=0.7853981633974483*v561;
-  const casadi_real v594=v592+v593;
-  const casadi_real v595=v550-v594;
-  const casadi_real v596=fabs(v595);
-  const casadi_real v597=v546-v596;
+  const casadi_real v570=v569*v569;
+  const casadi_real v571=v570*v570;
+  const casadi_real v572=(-0.8750608600031904)*v571;
+  const casadi_real v573=(-16.157537187333652)*v569;
+  const casadi_real v574=v573+(-75.00855792314705);
+  const casadi_real v575=v574*v570;
+  const casadi_real v576=(-122.88666844901361)*v569;
+  const casadi_real v577=v576+(-64.85021904942025);
+  const casadi_real v578=v575+v577;
+  const casadi_real v579=v572+v578;
+  const casadi_real v580=v569*v579;
+  const casadi_real v581=v569+24.858464901423062;
+  const casadi_real v582=v569*v569;
+  const casadi_real v583=v582*v582;
+  const casadi_real v584=v581*v583;
+  const casadi_real v585=165.02700983169885*v569;
+  const casadi_real v586=v585+432.88106049129027;
+  const casadi_real v587=v586*v582;
+  const casadi_real v588=485.3903996359137*v569;
+  const casadi_real v589=v588+194.5506571482614;
+  const casadi_real v590=v587+v589;
+  const casadi_real v591=v584+v590;
+  const casadi_real v592=v580/v591;
+  const casadi_real v593=v568*v592;
+  const casadi_real v594=v568+v593;
+  const casadi_real v595=0.7853981633974483*v563;
+  const casadi_real v596=v594+v595;
+  const casadi_real v597=v552-v596;
   const casadi_real v598=fabs(v597);
-  const casadi_real v599=copysign(v598,v481);
-  o1[6]=v599;
-  const casadi_real v600=casadi_fmax(v55,0.0);
-  const casadi_real v601=sqrt(v600);
-  o1[10]=v601;
-  const casadi_real v602=casadi_fmax(v60,0.0);
+  const casadi_real v599=v548-v598;
+  const casadi_real v600=fabs(v599);
+  const casadi_real v601=copysign(v600,v483);
+  o1[6]=v601;
+  const casadi_real v602=casadi_fmax(v55,0.0);
   const casadi_real v603=sqrt(v602);
-  o1[11]=v603;
-  const casadi_real v604=casadi_fmax(v64,0.0);
+  o1[10]=v603;
+  const casadi_real v604=casadi_fmax(v60,0.0);
   const casadi_real v605=sqrt(v604);
-  o1[12]=v605;
-  const casadi_real v606=casadi_fmax(v68,0.0);
+  o1[11]=v605;
+  const casadi_real v606=casadi_fmax(v64,0.0);
   const casadi_real v607=sqrt(v606);
-  o1[13]=v607;
-  const casadi_real v608=casadi_fmax(v71,0.0);
+  o1[12]=v607;
+  const casadi_real v608=casadi_fmax(v68,0.0);
   const casadi_real v609=sqrt(v608);
-  o1[14]=v609;
-  const casadi_real v610=casadi_fmax(v74,0.0);
+  o1[13]=v609;
+  const casadi_real v610=casadi_fmax(v71,0.0);
   const casadi_real v611=sqrt(v610);
-  o1[15]=v611;
-  const casadi_real v612=v34*v38;
-  const casadi_real v613=v32*v36;
-  const casadi_real v614=v612-v613;
-  const casadi_real v615=2.*v614;
-  const casadi_real v616=v55*v615;
-  const casadi_real v617=v615*v616;
-  const casadi_real v618=v36*v38;
-  const casadi_real v619=v32*v34;
-  const casadi_real v620=v618+v619;
-  const casadi_real v621=2.*v620;
-  const casadi_real v622=v60*v621;
-  const casadi_real v623=v621*v622;
-  const casadi_real v624=v617+v623;
-  const casadi_real v625=v34*v34;
-  const casadi_real v626=v36*v36;
-  const casadi_real v627=v625+v626;
-  const casadi_real v628=2.*v627;
-  const casadi_real v629=1.0-v628;
-  const casadi_real v630=v64*v629;
-  const casadi_real v631=v629*v630;
-  const casadi_real v632=v624+v631;
-  const casadi_real v633=casadi_fmax(v632,0.0);
-  const casadi_real v634=sqrt(v633);
-  o1[19]=v634;
+  o1[14]=v611;
+  const casadi_real v612=casadi_fmax(v74,0.0);
+  const casadi_real v613=sqrt(v612);
+  o1[15]=v613;
+  const casadi_real v614=v34*v38;
+  const casadi_real v615=v32*v36;
+  const casadi_real v616=v614-v615;
+  const casadi_real v617=2.*v616;
+  const casadi_real v618=v55*v617;
+  const casadi_real v619=v617*v618;
+  const casadi_real v620=v36*v38;
+  const casadi_real v621=v32*v34;
+  const casadi_real v622=v620+v621;
+  const casadi_real v623=2.*v622;
+  const casadi_real v624=v60*v623;
+  const casadi_real v625=v623*v624;
+  const casadi_real v626=v619+v625;
+  const casadi_real v627=v34*v34;
+  const casadi_real v628=v36*v36;
+  const casadi_real v629=v627+v628;
+  const casadi_real v630=2.*v629;
+  const casadi_real v631=1.0-v630;
+  const casadi_real v632=v64*v631;
+  const casadi_real v633=v631*v632;
+  const casadi_real v634=v626+v633;
+  const casadi_real v635=casadi_fmax(v634,0.0);
+  const casadi_real v636=sqrt(v635);
+  o1[19]=v636;
   return 0;
 }
 
@@ -35743,12 +35744,12 @@ static int pyimu_imt30_ukf_initial(const casadi_real** arg, casadi_real** res, c
 /* What is remembered from sample to sample. */
 typedef struct {
     double before[359], after[359]; /* the states from which the last sample was made, and that it left */
-    double period, parameters[64];
+    double period, parameters[65];
     double sample; /* the number of the last sample; 0 at the start, less before */
     const double *arg[44];
     double *res[29];
     long long iw[1];
-    double w[3135];
+    double w[3138];
 } pyimu_imt30_ukf_memory;
 
 void *pyimu_imt30_ukf_create(double period, const double *parameters, size_t n) {
@@ -35756,8 +35757,8 @@ void *pyimu_imt30_ukf_create(double period, const double *parameters, size_t n) 
     if (!(period > 0.0)) {
         ModelicaFormatError("AttitudeUkf: samplePeriod is %g s and must be a positive number of seconds", period);
     }
-    if (n != 64) {
-        ModelicaFormatError("AttitudeUkf: %lu parameters were given, 64 are needed", (unsigned long) n);
+    if (n != 65) {
+        ModelicaFormatError("AttitudeUkf: %lu parameters were given, 65 are needed", (unsigned long) n);
     }
     memory = (pyimu_imt30_ukf_memory *) calloc(1, sizeof *memory);
     if (!memory) {
