@@ -32,7 +32,7 @@ from pyimu.identification.fit.walk import widening
 from pyimu.identification.fit.whiten import WALKS, Autoregressive
 from pyimu.identification.search.belief import unbelievable
 from pyimu.identification.search.by_chance import Chance
-from pyimu.identification.search.candidates import Group, equivalent, with_start
+from pyimu.identification.search.candidates import Group, equivalent, subsets, with_start
 from pyimu.identification.search.ceiling import (
     at_samples,
     is_ceiling,
@@ -318,6 +318,22 @@ def _with(current: Fit, c: Screened) -> Fit:
     """A model beside which a candidate is free, at the values where it begins."""
     sensor = with_start(current.sensor, c.values, c.effect, c.form)
     return replace(current, sensor=sensor, free=current.free | keys_of(c))
+
+
+def likeliest_first(current: Fit, c: Screened, group: Group) -> list[tuple[Group, ...]]:
+    """The groups of a candidate with all elements of a further one, or some: in the order of what
+    they explain, penalised, by one fit of them all.
+    """
+    fitted, normal = fit_and_normal(
+        _with(current, replace(c, groups=(*c.groups, group))).with_noise()
+    )
+
+    def lost(keys: tuple[Key, ...]) -> float:
+        without = [k for k in group.keys if k not in keys]
+        return fitted_gain(normal, fitted.sensor, without, c.scatter) if without else 0.0
+
+    ordered = sorted(subsets(group.keys), key=lost)
+    return [(*c.groups, replace(group, keys=keys)) for keys in ordered]
 
 
 def refine(current: Fit, c: Screened) -> Refined:

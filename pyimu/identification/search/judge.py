@@ -9,13 +9,14 @@ from pyimu.identification.fit.fit import Fit
 from pyimu.identification.fit.keys import Coefficient, coefficients_of
 from pyimu.identification.fit.trial import Trial
 from pyimu.identification.search.belief import hidden, unbelievable
-from pyimu.identification.search.candidates import Group, subsets
+from pyimu.identification.search.candidates import Group
 from pyimu.identification.search.choice import (
     ALIKE,
     SET_WIDTH,
     Refined,
     Tried,
     ahead,
+    likeliest_first,
     refine,
 )
 from pyimu.identification.search.confirm import LEAST_OF_EXCESS, SPEAKS, Evidence, evidence
@@ -23,7 +24,7 @@ from pyimu.identification.search.own_signal import AT_ZERO, is_of_reference
 from pyimu.identification.search.passing import passing
 from pyimu.identification.search.reference_line import is_line_of_reference
 from pyimu.identification.search.rounded import OF_DIGITS, within_digits
-from pyimu.identification.search.screen import fitted_gain, is_slow, keys_of
+from pyimu.identification.search.screen import Screened, fitted_gain, is_slow, keys_of
 from pyimu.identification.search.unseen_instants import with_unseen_instants
 from pyimu.model.catalogue import CATALOGUE
 
@@ -89,13 +90,10 @@ def _within_belief(old: Fit, chosen: Refined) -> Refined:
             continue
         # Each axis has samples of its own, so that what stands on the others makes no difference.
         kept = tuple(g for g in groups if g is not group)
-        ways = [w for some in _instead(group, others) if (w := kept + some)]
-        found = [refine(old, replace(seen, groups=w)) for w in ways]
-        likely = [r for r in found if ahead(chosen, r) <= SET_WIDTH]
-        best = max((r for r in likely if _believed(r, kept)), key=lambda r: r.gain, default=None)
-        if best is None:
+        found = _instead(old, chosen, replace(seen, groups=kept), group, others)
+        if found is None:
             return chosen
-        groups = best.screened.groups
+        best, groups = found, found.screened.groups
     return best
 
 
@@ -105,12 +103,23 @@ def _believed(found: Refined, kept: tuple[Group, ...]) -> bool:
     return not unbelievable(found.fit, [k for g in own for k in g.keys])
 
 
-def _instead(group: Group, others: Sequence[Coefficient]) -> list[tuple[Group, ...]]:
-    """What may stand in place of a group: some of the ``others`` on its axis, or nothing where
-    there are none.
+def _instead(
+    old: Fit, chosen: Refined, beside: Screened, group: Group, others: Sequence[Coefficient]
+) -> Refined | None:
+    """The likeliest candidate with some of the ``others`` on the axis of a group in its place, or
+    with nothing where there are none; None where none within belief explains as much.
     """
-    row = [k for k in others if k.index[:1] == group.keys[0].index[:1]]
-    return [(replace(group, keys=keys),) for keys in subsets(row)] if row else [()]
+    kept = beside.groups
+    row = tuple(k for k in others if k.index[:1] == group.keys[0].index[:1])
+    whole = replace(group, keys=row)
+    ways = likeliest_first(old, beside, whole) if row else [kept] if kept else []
+    for groups in ways:
+        found = refine(old, replace(beside, groups=groups))
+        if ahead(chosen, found) > SET_WIDTH:
+            return None
+        if _believed(found, kept):
+            return found
+    return None
 
 
 def _shown(old: Fit, chosen: Refined, gate: float) -> tuple[Refined, str]:
