@@ -9,7 +9,6 @@ average.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -24,7 +23,7 @@ from pyimu.attitude.rest import Rest, finite_rows, sways
 from pyimu.errors import Finding
 from pyimu.model.part import Part
 from pyimu.recording.recording import Recording
-from pyimu.recording.rest import rests
+from pyimu.recording.rest import rests, still_rows
 
 COMES_BACK = 2
 """Levels beside that after a change about the vertical by which it was a drift and no turn."""
@@ -72,11 +71,10 @@ def early_drift(recording: Recording, part: Part, rest: Rest) -> float:
     return float(np.sqrt(density))
 
 
-def drift_findings(parameters: Mapping[str, float]) -> tuple[Finding, ...]:
-    """A finding ``gyro_drifts`` where the filter's parameters have such a drift: its root density
-    and what it makes of the bias in a minute.
+def drift_findings(walk: float) -> tuple[Finding, ...]:
+    """A finding ``gyro_drifts`` where there is such a drift: its root density ``walk`` in
+    rad/s/sqrt(s), and what it makes of the bias in a minute.
     """
-    walk = parameters.get("bias_drift", 0.0)
     if not walk > 0:
         return ()
     detail = {"walk": walk, "in_a_minute": walk * float(np.sqrt(60.0))}
@@ -90,7 +88,9 @@ def _levels(recording: Recording, part: Part, white: float) -> list[Level]:
     """
     period, found = recording.sample_period, []
     edge, whole = round(EDGE / period), round(WHOLE / period)
-    for a, b in rests(recording):
+    # At any phase of a second rests are a little longer, and take ten times as long to find.
+    still = still_rows if recording.stationary is None else rests
+    for a, b in still(recording):
         first, last = a + edge, b - edge
         ends = [(first, last)]
         if last - first > 2 * whole:

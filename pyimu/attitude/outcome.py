@@ -10,7 +10,6 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pyimu.attitude.contradicted import contradicted
-from pyimu.attitude.early_drift import drift_findings
 from pyimu.attitude.error import AttitudeError, error_against
 from pyimu.attitude.even_turns import turn_findings
 from pyimu.attitude.filter.status import STATUS
@@ -121,7 +120,6 @@ class Outcome:
         found = (
             *found,
             *turn_findings(self.rest),
-            *drift_findings(self.parameters),
             *self.magnetometer.findings,
             *contradicted(self.recording),
         )

@@ -21,7 +21,7 @@ from pyimu.attitude.columns import (
     warmer,
 )
 from pyimu.attitude.driven import speed_share
-from pyimu.attitude.early_drift import early_drift
+from pyimu.attitude.early_drift import drift_findings, early_drift
 from pyimu.attitude.filter.compensation import left_in, noise_of
 from pyimu.attitude.filter.stillness import SWAY_TIME
 from pyimu.attitude.filter.timing import clock_error, estimate_latency
@@ -148,6 +148,9 @@ def run(
     outputs = _estimated(block, log, p, smooth, heard)
     parameters = {v.name: value for v, value in zip(block.parameters, p.tolist(), strict=True)}
     of_heading += _of_field(log, outputs["q"], parameters)
+    of_part = log.of_part
+    if method == OWN and "bias_drift" not in given:
+        of_part += drift_findings(parameters["bias_drift"])
     return AttitudeResult(
         log.recording.name,
         log.recording.time,
@@ -159,7 +162,7 @@ def run(
         left_in=left_in(known, retimed=True),
         method=method,
         smoothed=smooth,
-        of_part=log.of_part,
+        of_part=of_part,
         of_heading=of_heading,
         magnetometer=field.in_world(world),
     )
